@@ -1,0 +1,30 @@
+# Options that every target shares, and one-line helpers for libraries and tests.
+
+set(SCORIA_MARCH "x86-64-v3" CACHE STRING "Value of -march; empty for the compiler's default")
+option(SCORIA_WERROR "Warnings are errors" OFF)
+set(SCORIA_SANITIZE "" CACHE STRING "Value of -fsanitize, such as address,undefined")
+
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
+set(CMAKE_CXX_FLAGS_DEBUG "-O0 -g")
+
+add_library(scoria_options INTERFACE)
+target_compile_options(scoria_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wold-style-cast
+  $<$<BOOL:${SCORIA_WERROR}>:-Werror>
+  $<$<BOOL:${SCORIA_MARCH}>:-march=${SCORIA_MARCH}>)
+if(SCORIA_SANITIZE)
+  target_compile_options(scoria_options INTERFACE -fsanitize=${SCORIA_SANITIZE} -fno-omit-frame-pointer -g)
+  target_link_options(scoria_options INTERFACE -fsanitize=${SCORIA_SANITIZE})
+endif()
+
+# scoria_library(NAME SOURCES a.cc ... PUBLIC targets PRIVATE targets): static library scoria::NAME.
+function(scoria_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(scoria_${name} STATIC ${ARG_SOURCES})
+  add_library(scoria::${name} ALIAS scoria_${name})
+  target_include_directories(scoria_${name} PUBLIC ${PROJECT_SOURCE_DIR})
+  target_link_libraries(scoria_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} scoria_options)
+endfunction()

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+
+#include "controller/estimation/state_estimator.h"
+#include "controller/gait/gait_sequencer.h"
+#include "controller/model/whole_body.h"
+#include "controller/mpc/convex_mpc.h"
+#include "controller/reference/reference_planner.h"
+#include "controller/safety/leg_state_machine.h"
+#include "controller/stand_up.h"
+#include "controller/swing/foothold_planner.h"
+#include "controller/swing/swing_trajectory.h"
+#include "controller/wbc/tsid.h"
+#include "core/clock.h"
+
+namespace scoria::controller {
+
+struct RateParams {
+  double wbc_Hz = 500.0, mpc_Hz = 100.0;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Field("wbc_Hz", wbc_Hz, {.min = 50.0, .max = 1000.0, .doc = "whole-body control and swing"});
+    a.Field("mpc_Hz", mpc_Hz, {.min = 10.0, .max = 500.0, .doc = "gait, reference and MPC"});
+  }
+};
+
+struct ControllerParams {
+  RateParams rates;
+  EstimatorParams estimator;
+  GaitParams gait = AgsParams{};
+  ReferenceParams reference;
+  FootholdParams foothold;
+  LegStateParams legs;
+  SwingParams swing;
+  MpcParams mpc;
+  TsidParams wbc;
+  StandUpParams stand_up;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Field("rates", rates);
+    a.Field("estimator", estimator);
+    a.Field("gait", gait);
+    a.Field("reference", reference);
+    a.Field("foothold", foothold);
+    a.Field("legs", legs);
+    a.Field("swing", swing);
+    a.Field("mpc", mpc);
+    a.Field("wbc", wbc);
+    a.Field("stand_up", stand_up);
+  }
+};
+
+/// Everything that one tick decided, for the record. `*_updated` tells which parts are new.
+struct ControlOutput {
+  JointCommand command;
+  StateEstimate estimate;
+  bool operating = false;  // false while standing up
+  bool wbc_updated = false, mpc_updated = false;
+  ContactPlan contacts;
+  LegPhases legs;
+  FootTargets feet;
+  LegArray<Vec3> f_F_W = ZeroPerLeg();  // forces that the body controller expects
+  BodyReference::Stage target;          // body target of the body controller
+  BodyReference::Stage reference;       // what the operator's command asks for now
+  double ground_z_m = 0.0;
+  SolveStatus mpc_status = SolveStatus::kOptimal, wbc_status = SolveStatus::kOptimal;
+  int mpc_iterations = 0, wbc_iterations = 0;
+  double mpc_solve_s = 0.0, wbc_solve_s = 0.0;  // wall clock
+};
+
+/// Counters of everything that did not go to plan, since the start.
+struct ControllerCounters {
+  std::uint32_t early_contacts = 0, mpc_failures = 0, wbc_failures = 0, wbc_torque_drops = 0;
+  bool operator==(const ControllerCounters&) const = default;
+};
+
+/// The hierarchy: estimation every physics step, gait, reference, footholds and MPC at mpc_Hz,
+/// legs, swing and whole-body control at wbc_Hz. Allocates only in the constructor; Step neither
+/// throws, prints nor locks.
+class Controller {
+ public:
+  enum class Start { kLying, kStanding };
+
+  /// @param robot borrowed. @param step_s physics step; rates are rounded to whole steps.
+  Controller(const ControllerParams& params, const core::RobotDescription& robot,
+             double gravity_mps2, double step_s, Start start);
+
+  [[nodiscard]] const ControlOutput& Step(const SensorFrame& z, const Command& command) noexcept;
+
+  [[nodiscard]] const ControllerCounters& counters() const noexcept { return counters_; }
+  [[nodiscard]] const ConvexMpc& mpc() const noexcept { return mpc_; }
+
+ private:
+  void StepPlans(const Command& command) noexcept;
+  void StepBody() noexcept;
+
+  ControllerParams params_;
+  core::StepClock clock_;
+  int mpc_every_, wbc_every_;
+  bool operating_;
+  WholeBodyModel model_;
+  double foot_radius_m_;
+  std::unique_ptr<StateEstimator> estimator_;
+  StandUp stand_up_;
+  std::unique_ptr<GaitSequencer> gait_;
+  ReferencePlanner reference_planner_;
+  FootholdPlanner foothold_planner_;
+  LegStateMachine leg_states_;
+  SwingTrajectory swing_;
+  ConvexMpc mpc_;
+  TsidNullspace wbc_;
+
+  WholeBody wb_;
+  BodyReference reference_;
+  FootholdPlan footholds_;
+  struct PendingPlan {
+    ForcePlan plan;
+    std::int64_t step = 0;  // when its state was taken
+  };
+  std::array<PendingPlan, 6> pending_;  // ring of MPC results, by MPC tick
+  PendingPlan active_;
+  std::int64_t mpc_tick_ = 0, plan_step_ = 0;
+  ControllerCounters counters_;
+  ControlOutput out_;
+};
+
+}  // namespace scoria::controller

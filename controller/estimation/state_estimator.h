@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <variant>
+
+#include "core/config/archive.h"
+#include "core/robot/state.h"
+
+namespace scoria::controller {
+
+/// Robot state and foot contacts as the controller believes them.
+struct StateEstimate {
+  RobotState state;
+  LegArray<bool> contact;
+};
+
+/// One call per physics step.
+class StateEstimator {
+ public:
+  virtual ~StateEstimator() = default;
+  [[nodiscard]] virtual StateEstimate Update(const SensorFrame& z) noexcept = 0;
+};
+
+/// The simulator's own state, for controller studies without estimation error.
+struct TruthEstimatorParams {
+  static constexpr const char* kType = "truth";
+  template <class Archive>
+  void Serialize(Archive&) {}
+};
+
+using EstimatorParams = std::variant<TruthEstimatorParams>;
+
+/// @returns true if the estimator needs SensorFrame::truth.
+[[nodiscard]] bool NeedsTruth(const EstimatorParams& params) noexcept;
+
+[[nodiscard]] std::unique_ptr<StateEstimator> MakeStateEstimator(const EstimatorParams& params);
+
+}  // namespace scoria::controller

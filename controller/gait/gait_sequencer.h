@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <memory>
+#include <variant>
+
+#include "controller/gait/phase_engine.h"
+#include "core/config/archive.h"
+#include "core/robot/state.h"
+
+namespace scoria::controller {
+
+/// What a gait sequencer may know at one of its ticks.
+struct GaitInput {
+  Command command;
+  double v_xy_mps = 0.0;  // horizontal speed of the COM
+  double w_z_radps = 0.0;
+  double height_m = 0.0;   // COM over the ground plane through the feet
+  LegArray<bool> contact;  // felt
+  double dt_s = 0.01;      // since the last tick
+  int horizon = 10;
+  double stage_s = 0.05;
+};
+
+/// When each foot shall be on the ground. One call per gait tick.
+class GaitSequencer {
+ public:
+  virtual ~GaitSequencer() = default;
+  [[nodiscard]] virtual ContactPlan Plan(const GaitInput& in) noexcept = 0;
+};
+
+/// Stride law of the adaptive gait: l = 2.3 Fr^0.3 h with Fr = v²/(g h), T = l/v, constant swing
+/// time, d = 1 − t_swing/T. Source: paper, adaptive gait sequencer, stage one. Beyond it: the
+/// stance travel v d T is capped, and d is clamped.
+struct StrideLaw {
+  double swing_s = 0.2;
+  double gravity_mps2 = 9.81;
+  double max_stance_travel_m = 0.30;
+  double min_duty = 0.5, max_duty = 0.95;
+  double min_speed_mps = 0.01;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Field("swing_s", swing_s, {.min = 0.05, .max = 1.0});
+    a.Field(
+        "gravity_mps2", gravity_mps2,
+        {.min = 0.1, .max = 30.0, .doc = "g of the Froude number, 9.81 in the paper everywhere"});
+    a.Field("max_stance_travel_m", max_stance_travel_m, {.min = 0.02, .max = 2.0});
+    a.Field("min_duty", min_duty, {.min = 0.2, .max = 0.95});
+    a.Field("max_duty", max_duty, {.min = 0.3, .max = 0.98});
+    a.Field("min_speed_mps", min_speed_mps, {.min = 1e-3, .max = 1.0});
+  }
+  /// @param v_mps speed, @param h_m COM height. Offsets are left at their default.
+  [[nodiscard]] GaitTiming Timing(double v_mps, double h_m) const noexcept;
+};
+
+/// Simple gait sequencer: constant timing. Default: the paper's baseline trot.
+struct SgsParams {
+  static constexpr const char* kType = "sgs";
+  double period_s = 0.5;
+  double duty = 0.6;
+  std::array<double, 4> offset = {0.0, 0.5, 0.5, 0.0};
+  StandParams stand;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Field("period_s", period_s, {.min = 0.1, .max = 5.0});
+    a.Field("duty", duty, {.min = 0.1, .max = 0.98});
+    a.Field("offset", offset, {.min = 0.0, .max = 1.0, .doc = "FL, FR, HL, HR"});
+    a.Field("stand", stand);
+  }
+};
+
+/// Adaptive gait sequencer of the paper.
+struct AgsParams {
+  static constexpr const char* kType = "ags";
+  StrideLaw law;
+  std::array<double, 4> offset = {0.0, 0.5, 0.5, 0.0};
+  int speed_filter_samples = 20;
+  double yaw_arm_m = 0.3;
+  double command_share = 0.5;
+  StandParams stand;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Field("law", law);
+    a.Field("offset", offset, {.min = 0.0, .max = 1.0, .doc = "FL, FR, HL, HR"});
+    a.Field("speed_filter_samples", speed_filter_samples,
+            {.min = 1, .max = 100, .doc = "moving mean of the measured speed, in gait ticks"});
+    a.Field("yaw_arm_m", yaw_arm_m, {.min = 0.0, .max = 1.0, .doc = "speed floor per yaw rate"});
+    a.Field("command_share", command_share,
+            {.min = 0.0, .max = 1.0, .doc = "speed floor as a share of the command"});
+    a.Field("stand", stand);
+  }
+};
+
+/// Fixed at what the stride law gives for the commanded speed: isolates adaptation from slower
+/// stepping.
+struct SgsMatchedParams {
+  static constexpr const char* kType = "sgs_matched";
+  StrideLaw law;
+  std::array<double, 4> offset = {0.0, 0.5, 0.5, 0.0};
+  double yaw_arm_m = 0.3;
+  StandParams stand;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Field("law", law);
+    a.Field("offset", offset, {.min = 0.0, .max = 1.0, .doc = "FL, FR, HL, HR"});
+    a.Field("yaw_arm_m", yaw_arm_m, {.min = 0.0, .max = 1.0, .doc = "speed floor per yaw rate"});
+    a.Field("stand", stand);
+  }
+};
+
+using GaitParams = std::variant<SgsParams, AgsParams, SgsMatchedParams>;
+
+/// @param nominal_height_m COM height that sgs_matched plans with.
+[[nodiscard]] std::unique_ptr<GaitSequencer> MakeGaitSequencer(const GaitParams& params,
+                                                               double nominal_height_m);
+
+}  // namespace scoria::controller

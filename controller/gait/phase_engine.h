@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/robot/plans.h"
+
+namespace scoria::controller {
+
+/// Period, stance share and phase offsets that a gait asks for.
+struct GaitTiming {
+  double period_s = 0.5;
+  double duty = 0.6;
+  LegArray<double> offset{0.0, 0.5, 0.5, 0.0};
+  bool operator==(const GaitTiming&) const = default;
+};
+
+/// Walk when someone commands motion or the body is pushed, stand otherwise.
+struct StandParams {
+  double stop_below_mps = 0.08;
+  double step_above_mps = 0.30;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Field("stop_below_mps", stop_below_mps,
+            {.min = 0.0, .max = 2.0, .doc = "without a command, stand below this body speed"});
+    a.Field("step_above_mps", step_above_mps,
+            {.min = 0.0, .max = 5.0, .doc = "without a command, start stepping above this speed"});
+  }
+};
+
+/// The phase of every leg, kept consistent while the timing changes. Stage two of the adaptive gait
+/// sequencer; with constant timing it is the clock of a fixed gait. Source: paper, adaptive gait
+/// sequencer, phase update and offset correction. Differences: a correction never moves a leg
+/// within one correction step of lift-off (so it cannot cause one), and offset errors wrap to
+/// [-0.5, 0.5].
+class PhaseEngine {
+ public:
+  /// One step of dt under `timing`; legs in `touched_down` end their swing at once. Without
+  /// `walking`, feet that are down stay down and the others finish their swing.
+  void Update(const GaitTiming& timing, double dt_s, bool walking,
+              const LegArray<bool>& touched_down) noexcept;
+
+  /// The contact plan over `horizon` stages of `stage_s`, timing held constant.
+  [[nodiscard]] ContactPlan Predict(int horizon, double stage_s) const noexcept;
+
+  [[nodiscard]] const LegArray<double>& phase() const noexcept { return phase_; }
+  [[nodiscard]] bool InStance(Leg leg) const noexcept { return phase_[leg] < timing_.duty; }
+  [[nodiscard]] bool standing() const noexcept { return standing_; }
+
+ private:
+  void StartWalking() noexcept;
+  [[nodiscard]] Leg ReferenceLeg() const noexcept;
+  void CorrectOffsets(double dt_s) noexcept;
+
+  GaitTiming timing_;
+  LegArray<double> phase_{0.0};
+  bool standing_ = true;
+};
+
+}  // namespace scoria::controller

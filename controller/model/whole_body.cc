@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "controller/model/whole_body.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/LU>
+
+#include "core/math/so3.h"
+
+namespace scoria::controller {
+namespace {
+
+using core::Body;
+using core::JointDescription;
+using core::LegDescription;
+using core::Skew;
+
+/// Rotation about a unit axis; the axes of legs are mostly coordinate axes, where this is exact.
+Mat3 AxisRotation(const Vec3& axis, double angle) noexcept {
+  return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+}
+
+/// m (|d|² 1 − d dᵀ): inertia of a point mass at d.
+Mat3 PointInertia(double mass, const Vec3& d) noexcept {
+  return mass * (d.squaredNorm() * Mat3::Identity() - d * d.transpose());
+}
+
+/// Several bodies joined: mass, COM from B's origin, inertia about that COM. In W.
+struct Composite {
+  double mass = 0.0;
+  Vec3 c = Vec3::Zero();
+  Mat3 I = Mat3::Zero();
+};
+
+Composite Join(const Composite& a, const Composite& b) noexcept {
+  Composite out;
+  out.mass = a.mass + b.mass;
+  out.c = (a.mass * a.c + b.mass * b.c) / out.mass;
+  out.I = a.I + b.I + PointInertia(a.mass, a.c - out.c) + PointInertia(b.mass, b.c - out.c);
+  return out;
+}
+
+/// Motion of a link at zero generalised acceleration: `o` joint origin from B's origin, `a_o` its
+/// acceleration, which starts from +g at the trunk so that gravity enters every force below.
+struct LinkMotion {
+  Mat3 R;
+  Vec3 o, w, alpha, v_o, a_o, z;
+};
+
+struct Wrench {
+  Vec3 f = Vec3::Zero(), t = Vec3::Zero();  // t about B's origin
+};
+
+/// Force that moves a body as `m` says.
+Wrench InertialWrench(const Composite& body, const LinkMotion& m) noexcept {
+  const Vec3 oc = body.c - m.o;
+  Wrench out;
+  out.f = body.mass * (m.a_o + m.alpha.cross(oc) + m.w.cross(m.w.cross(oc)));
+  out.t = body.I * m.alpha + m.w.cross(body.I * m.w) + body.c.cross(out.f);
+  return out;
+}
+
+LinkMotion StepToLink(const LinkMotion& parent, const JointDescription& joint, double q,
+                      double qd) noexcept {
+  LinkMotion m;
+  const Vec3 d = parent.R * joint.p_PJ;
+  const Mat3 R_WJ = parent.R * joint.R_PJ;
+  m.z = R_WJ * joint.axis_J;
+  m.R = R_WJ * AxisRotation(joint.axis_J, q);
+  m.o = parent.o + d;
+  m.w = parent.w + m.z * qd;
+  m.alpha = parent.alpha + parent.w.cross(m.z) * qd;
+  m.v_o = parent.v_o + parent.w.cross(d);
+  m.a_o = parent.a_o + parent.alpha.cross(d) + parent.w.cross(parent.w.cross(d));
+  return m;
+}
+
+Composite InWorld(const Body& body, const LinkMotion& m) noexcept {
+  return {body.mass_kg, m.o + m.R * body.p_LC, m.R * body.I_C_L * m.R.transpose()};
+}
+
+void CalcFoot(const LegDescription& leg, const std::array<LinkMotion, 3>& links, Leg which,
+              double gravity, WholeBody& out) noexcept {
+  const LinkMotion& shank = links[2];
+  const Vec3 r = shank.R * leg.p_LF;
+  const Vec3 p_BF_W = shank.o + r;
+  out.p_BF_W[which] = p_BF_W;
+  out.p_WF[which] = out.state.p_WB + p_BF_W;
+  out.v_WF[which] = shank.v_o + shank.w.cross(r);
+  out.Jd_v[which] =
+      shank.a_o + shank.alpha.cross(r) + shank.w.cross(shank.w.cross(r)) - Vec3(0.0, 0.0, gravity);
+  out.w_shank_W[which] = shank.w;
+  out.Jwd_v[which] = shank.alpha;
+  for (int j = 0; j < 3; ++j) {
+    const LinkMotion& link = links[static_cast<std::size_t>(j)];
+    out.J_ll[which].col(j) = link.z.cross(p_BF_W - link.o);
+    out.Jw_ll[which].col(j) = link.z;
+  }
+}
+
+}  // namespace
+
+WholeBodyModel::WholeBodyModel(const core::RobotDescription& robot, double gravity_mps2)
+    : robot_(robot),
+      gravity_mps2_(gravity_mps2),
+      parameters_{robot.trunk.mass_kg, robot.trunk.p_LC, robot.trunk.I_C_L} {}
+
+void WholeBodyModel::SetParameters(const ModelParameters& parameters) noexcept {
+  parameters_ = parameters;
+}
+
+void WholeBodyModel::Calc(const RobotState& state, WholeBody& out) const noexcept {
+  out.state = state;
+  const Vec3 up(0.0, 0.0, gravity_mps2_);
+  const LinkMotion trunk{state.R_WB, Vec3::Zero(), state.w_WB, Vec3::Zero(), state.v_WB, up, {}};
+  const Body trunk_body{
+      {}, parameters_.trunk_mass_kg, parameters_.p_BC_trunk, parameters_.I_C_B_trunk};
+  Composite total = InWorld(trunk_body, trunk);
+  Wrench total_wrench = InertialWrench(total, trunk);
+  Vec3 momentum = total.mass * (state.v_WB + state.w_WB.cross(total.c));
+
+  for (const Leg leg : kLegs) {
+    const LegDescription& description = robot_.legs[leg];
+    std::array<LinkMotion, 3> links;
+    std::array<Composite, 3> bodies;
+    for (std::size_t j = 0; j < 3; ++j) {
+      const auto k = static_cast<Eigen::Index>(j);
+      links[j] = StepToLink(j == 0 ? trunk : links[j - 1], description.joints[j], state.q[leg][k],
+                            state.qd[leg][k]);
+      bodies[j] = InWorld(description.links[j], links[j]);
+      momentum += bodies[j].mass * (links[j].v_o + links[j].w.cross(bodies[j].c - links[j].o));
+    }
+    CalcFoot(description, links, leg, gravity_mps2_, out);
+
+    // Tip to root: composites give H, wrenches give h.
+    Composite outer = bodies[2];
+    Wrench wrench = InertialWrench(bodies[2], links[2]);
+    for (std::size_t j = 3; j-- > 0;) {
+      if (j < 2) {
+        outer = Join(bodies[j], outer);
+        const Wrench own = InertialWrench(bodies[j], links[j]);
+        wrench.f += own.f;
+        wrench.t += own.t;
+      }
+      const auto col = static_cast<Eigen::Index>(j);
+      const LinkMotion& link = links[j];
+      out.h_l[leg][col] = link.z.dot(wrench.t - link.o.cross(wrench.f));
+      const Vec3 f = outer.mass * link.z.cross(outer.c - link.o);  // force for unit qdd_j
+      const Vec3 t = outer.I * link.z + outer.c.cross(f);
+      out.H_Bl[leg].col(col) << f, t;
+      for (std::size_t k = 0; k <= j; ++k) {
+        const auto row = static_cast<Eigen::Index>(k);
+        const double h = links[k].z.dot(t - links[k].o.cross(f));
+        out.H_ll[leg](row, col) = out.H_ll[leg](col, row) = h;
+      }
+    }
+    out.H_ll[leg].diagonal() += robot_.config.motors.armature_kgm2;
+    total = Join(total, outer);
+    total_wrench.f += wrench.f;
+    total_wrench.t += wrench.t;
+  }
+
+  out.mass_kg = total.mass;
+  out.p_WC = state.p_WB + total.c;
+  out.v_WC = momentum / total.mass;
+  out.I_C_W = total.I;
+  const Mat3 S = Skew(total.c);
+  out.H_BB.topLeftCorner<3, 3>() = total.mass * Mat3::Identity();
+  out.H_BB.topRightCorner<3, 3>() = -total.mass * S;
+  out.H_BB.bottomLeftCorner<3, 3>() = total.mass * S;
+  out.H_BB.bottomRightCorner<3, 3>() = total.I + PointInertia(total.mass, total.c);
+  out.h_B << total_wrench.f, total_wrench.t;
+}
+
+LegKinematics CalcLegKinematics(const LegDescription& leg, const Vec3& q) noexcept {
+  Mat3 R = Mat3::Identity();
+  Vec3 p = Vec3::Zero();
+  std::array<Vec3, 3> o, z;
+  for (std::size_t j = 0; j < 3; ++j) {
+    const JointDescription& joint = leg.joints[j];
+    p += R * joint.p_PJ;
+    R *= joint.R_PJ;
+    o[j] = p;
+    z[j] = R * joint.axis_J;
+    R *= AxisRotation(joint.axis_J, q[static_cast<Eigen::Index>(j)]);
+  }
+  LegKinematics out;
+  out.p_BF = p + R * leg.p_LF;
+  for (std::size_t j = 0; j < 3; ++j) {
+    out.J.col(static_cast<Eigen::Index>(j)) = z[j].cross(out.p_BF - o[j]);
+  }
+  return out;
+}
+
+Vec3 SolveLegIk(const LegDescription& leg, const Vec3& p_BF, const Vec3& q_guess) noexcept {
+  constexpr int kMaxIterations = 60;
+  constexpr double kDamping_m = 1e-3, kTolerance_m = 1e-10, kMaxStep_rad = 0.3;
+  Vec3 q = q_guess;
+  for (int i = 0; i < kMaxIterations; ++i) {
+    const LegKinematics k = CalcLegKinematics(leg, q);
+    const Vec3 error = p_BF - k.p_BF;
+    if (error.norm() < kTolerance_m) break;
+    const double damping = std::min(kDamping_m, error.norm());  // vanishes as the root nears
+    const Mat3 A = k.J * k.J.transpose() + damping * damping * Mat3::Identity();
+    Vec3 step = k.J.transpose() * A.inverse() * error;
+    if (step.norm() > kMaxStep_rad) step *= kMaxStep_rad / step.norm();
+    q += step;
+    for (std::size_t j = 0; j < 3; ++j) {
+      double& angle = q[static_cast<Eigen::Index>(j)];
+      angle = std::clamp(angle, leg.joints[j].lower_rad, leg.joints[j].upper_rad);
+    }
+  }
+  return q;
+}
+
+Mat18 AssembleMassMatrix(const WholeBody& wb) noexcept {
+  Mat18 H = Mat18::Zero();
+  H.topLeftCorner<6, 6>() = wb.H_BB;
+  for (const Leg leg : kLegs) {
+    const Eigen::Index at = 6 + 3 * static_cast<Eigen::Index>(leg);
+    H.block<6, 3>(0, at) = wb.H_Bl[leg];
+    H.block<3, 6>(at, 0) = wb.H_Bl[leg].transpose();
+    H.block<3, 3>(at, at) = wb.H_ll[leg];
+  }
+  return H;
+}
+
+Vec18 AssembleBias(const WholeBody& wb) noexcept {
+  Vec18 h;
+  h.head<6>() = wb.h_B;
+  for (const Leg leg : kLegs) h.segment<3>(6 + 3 * static_cast<Eigen::Index>(leg)) = wb.h_l[leg];
+  return h;
+}
+
+}  // namespace scoria::controller

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "controller/mpc/convex_mpc.h"
+
+#include <Eigen/LU>
+
+#include "core/math/so3.h"
+
+namespace scoria::controller {
+namespace {
+
+Vec12 WeightVector(const MpcWeights& w) noexcept {
+  Vec12 q;
+  q << w.rpy, w.position, w.angular_velocity, w.velocity;
+  return 2.0 * q;  // the QP has a factor one half
+}
+
+Vec12 StateOf(const Vec3& rpy, const Vec3& p, const Vec3& w, const Vec3& v) noexcept {
+  Vec12 x;
+  x << rpy, p, w, v;
+  return x;
+}
+
+Mat3 GroundFrame(const Vec3& n_W, double yaw_rad) noexcept {
+  const Vec3 heading(std::cos(yaw_rad), std::sin(yaw_rad), 0.0);
+  Mat3 R;
+  R.col(2) = n_W;
+  R.col(0) = (heading - heading.dot(n_W) * n_W).normalized();
+  R.col(1) = R.col(2).cross(R.col(0));
+  return R;
+}
+
+}  // namespace
+
+ConvexMpc::ConvexMpc(const MpcParams& params, const core::RobotDescription& robot,
+                     double gravity_mps2)
+    : params_(params),
+      foot_radius_m_(robot.legs[Leg::kFL].foot_radius_m),
+      gravity_mps2_(gravity_mps2),
+      solver_(params.solver) {}
+
+void ConvexMpc::Build(const MpcInput& in) noexcept {
+  const WholeBody& wb = in.wb;
+  const double dt = params_.stage_s;
+  const auto& reference = in.reference.stages;
+  Vec3 rpy = core::RpyFromRotation(wb.state.R_WB);
+  rpy.z() = core::UnwrapNear(rpy.z(), reference[0].rpy_rad.z());
+  R_WT_ = GroundFrame(in.reference.n_W, rpy.z());
+
+  qp_.horizon = params_.horizon;
+  qp_.friction = params_.friction;
+  qp_.f_min_N = params_.f_min_N;
+  qp_.f_max_N = params_.f_max_N;
+  qp_.start_force_N = wb.mass_kg * gravity_mps2_;
+  qp_.forward_euler = true;
+  qp_.x0 = StateOf(rpy, wb.p_WC, wb.state.w_WB, wb.v_WC);
+  const Vec12 weights = WeightVector(in.contacts.standing ? params_.stand : params_.move);
+  const Vec3 contact_offset = -foot_radius_m_ * in.reference.n_W;
+
+  for (int k = 0; k <= params_.horizon; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    OcpStage& stage = qp_.stages[i];
+    const BodyReference::Stage& ref = reference[i];
+    stage.Q = weights;
+    stage.q = -weights.cwiseProduct(StateOf(ref.rpy_rad, ref.p_WC, ref.w_WB, ref.v_WC));
+    if (k == params_.horizon) break;
+
+    const Mat3 turn = core::RotationZ(ref.rpy_rad.z() - rpy.z());
+    const Mat3 I_inverse = (turn * wb.I_C_W * turn.transpose()).inverse();
+    const Vec3 p_WC =
+        wb.p_WC + ref.p_WC - reference[0].p_WC;  // the reference motion from where we are
+    stage.F.setZero();
+    stage.F.topLeftCorner<3, 3>() = dt * core::RotationZ(ref.rpy_rad.z()).transpose();
+    stage.F.bottomRightCorner<3, 3>() = dt * Mat3::Identity();
+    stage.b.setZero();
+    stage.b[11] = -dt * gravity_mps2_;
+    stage.R.setConstant(2.0 * params_.force_weight);
+    stage.r.setZero();
+    stage.B.setZero();
+    for (const Leg leg : kLegs) {
+      stage.stance[leg] = k == 0 ? in.legs.InContact(leg) : in.contacts.stage_stance[i][leg];
+      if (!stage.stance[leg]) continue;
+      const Vec3 foot = k == 0 ? wb.p_WF[leg] : in.footholds.stage[i][leg];
+      const Vec3 r = foot + contact_offset - p_WC;
+      const int column = 3 * static_cast<int>(leg);
+      stage.B.block<3, 3>(6, column) = dt * I_inverse * core::Skew(r) * R_WT_;
+      stage.B.block<3, 3>(9, column) = dt / wb.mass_kg * R_WT_;
+    }
+  }
+}
+
+ForcePlan ConvexMpc::ToPlan() const noexcept {
+  ForcePlan plan;
+  plan.valid = true;
+  plan.dt_s = params_.stage_s;
+  for (const Leg leg : kLegs) {
+    const int at = 3 * static_cast<int>(leg);
+    plan.f_F_W[leg] = R_WT_ * solution_.u[0].segment<3>(at);
+    plan.f_next_F_W[leg].setZero();
+    for (int k = 0; k < params_.horizon; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      if (k < 2) plan.stance[i][leg] = qp_.stages[i].stance[leg];
+      if (plan.f_next_F_W[leg].isZero() && qp_.stages[i].stance[leg]) {
+        plan.f_next_F_W[leg] = R_WT_ * solution_.u[i].segment<3>(at);
+      }
+    }
+  }
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Vec12& x = solution_.x[k];
+    plan.body[k] = {x.segment<3>(0), x.segment<3>(3), x.segment<3>(6), x.segment<3>(9)};
+  }
+  return plan;
+}
+
+MpcResult ConvexMpc::Solve(const MpcInput& in) noexcept {
+  Build(in);
+  solver_.Solve(qp_, solution_);
+  MpcResult result;
+  result.status = solution_.status;
+  result.iterations = solution_.iterations;
+  if (IsUsable(result.status)) result.plan = ToPlan();
+  return result;
+}
+
+}  // namespace scoria::controller

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "controller/model/whole_body.h"
+#include "core/config/archive.h"
+#include "core/robot/plans.h"
+
+namespace scoria::controller {
+
+struct ReferenceParams {
+  double max_yaw_lead_rad = 0.3;
+  double max_position_lead_m = 0.10;
+  double tilt_share = 0.3;
+  double plane_slope_gain = 0.1;
+  double plane_height_gain = 0.15;
+  double max_acceleration_mps2 = 1.0;
+  double max_yaw_acceleration_radps2 = 3.0;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Field(
+        "max_yaw_lead_rad", max_yaw_lead_rad,
+        {.min = 0.0, .max = 3.0, .doc = "how far the desired heading may run from the measured"});
+    a.Field("max_position_lead_m", max_position_lead_m, {.min = 0.0, .max = 1.0});
+    a.Field("tilt_share", tilt_share,
+            {.min = 0.0, .max = 1.0, .doc = "share of the ground's tilt that the trunk follows"});
+    a.Field("plane_slope_gain", plane_slope_gain,
+            {.min = 0.0, .max = 1.0, .doc = "low-pass gain per tick of the ground plane's slope"});
+    a.Field("plane_height_gain", plane_height_gain, {.min = 0.0, .max = 1.0});
+    a.Field("max_acceleration_mps2", max_acceleration_mps2,
+            {.min = 0.05, .max = 20.0, .doc = "ramp of commanded speeds"});
+    a.Field("max_yaw_acceleration_radps2", max_yaw_acceleration_radps2, {.min = 0.05, .max = 50.0});
+  }
+};
+
+/// Desired body motion from the operator's command: position and heading integrate the command,
+/// held near the measured ones, so that a standing robot does not drift and a blocked one does not
+/// wind up; height and tilt follow the plane through the last footholds.
+class ReferencePlanner {
+ public:
+  ReferencePlanner(const ReferenceParams& params, double nominal_height_m) noexcept
+      : params_(params), nominal_height_m_(nominal_height_m) {}
+
+  /// Tells where the feet that are down stand; call once per tick before Plan.
+  /// @param foot_radius_m lowers the footholds to the ground.
+  void ObserveFeet(const WholeBody& wb, const LegArray<bool>& contact,
+                   double foot_radius_m) noexcept;
+
+  [[nodiscard]] BodyReference Plan(const WholeBody& wb, const Command& command, int horizon,
+                                   double stage_s, double dt_s) noexcept;
+
+  [[nodiscard]] const GroundPlane& plane() const noexcept { return plane_; }
+  /// Commanded velocity after the ramps, in H.
+  [[nodiscard]] const Vec2& v_ramped_H() const noexcept { return v_H_; }
+  [[nodiscard]] double w_z_ramped_radps() const noexcept { return w_z_; }
+
+ private:
+  void Ramp(const Command& command, double dt_s) noexcept;
+  void FitPlane(const Vec3& p_WB) noexcept;
+
+  ReferenceParams params_;
+  double nominal_height_m_;
+  bool started_ = false;
+  LegArray<Vec3> foothold_W_ = ZeroPerLeg();  // last ground contact of each foot
+  GroundPlane plane_;
+  Vec2 p_desired_W_ = Vec2::Zero();
+  double yaw_desired_rad_ = 0.0;
+  Vec2 v_H_ = Vec2::Zero();
+  double w_z_ = 0.0;
+};
+
+}  // namespace scoria::controller

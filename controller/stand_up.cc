@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "controller/stand_up.h"
+
+#include <algorithm>
+
+#include "controller/model/whole_body.h"
+
+namespace scoria::controller {
+
+LegArray<Vec3> StandingPose(const core::RobotDescription& robot, double height_m) {
+  LegArray<Vec3> pose = ZeroPerLeg();
+  for (const Leg leg : kLegs) {
+    Vec3 p_BF = robot.NeutralFoothold(leg);
+    p_BF.z() = -height_m;
+    const Vec3 guess(0.0, 0.8, -1.6);
+    pose[leg] = SolveLegIk(robot.legs[leg], p_BF, guess);
+  }
+  return pose;
+}
+
+JointCommand StandUp::Update(const SensorFrame& z, double time_s) noexcept {
+  if (!started_) {
+    started_ = true;
+    start_ = z.q;
+  }
+  const double s = std::clamp(time_s / params_.duration_s, 0.0, 1.0);
+  const double blend = s * s * (3.0 - 2.0 * s), rate = 6.0 * s * (1.0 - s) / params_.duration_s;
+  JointCommand command;
+  for (const Leg leg : kLegs) {
+    command.q[leg] = start_[leg] + blend * (goal_[leg] - start_[leg]);
+    command.qd[leg] = rate * (goal_[leg] - start_[leg]);
+    command.kp_Nm_per_rad[leg].setConstant(params_.kp_Nm_per_rad);
+    command.kd_Nms_per_rad[leg].setConstant(params_.kd_Nms_per_rad);
+  }
+  return command;
+}
+
+}  // namespace scoria::controller

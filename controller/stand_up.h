@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/config/archive.h"
+#include "core/robot/description.h"
+#include "core/robot/state.h"
+
+namespace scoria::controller {
+
+struct StandUpParams {
+  double duration_s = 1.5;
+  double hold_s = 0.3;
+  double kp_Nm_per_rad = 100.0, kd_Nms_per_rad = 2.5;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Field("duration_s", duration_s, {.min = 0.1, .max = 20.0});
+    a.Field("hold_s", hold_s,
+            {.min = 0.0, .max = 20.0, .doc = "rest on the joint controller after standing up"});
+    a.Field("kp_Nm_per_rad", kp_Nm_per_rad, {.min = 1.0, .max = 1e3});
+    a.Field("kd_Nms_per_rad", kd_Nms_per_rad, {.min = 0.0, .max = 100.0});
+  }
+};
+
+/// Joint angles at which the feet stand below the neutral footholds, `height_m` the trunk's origin
+/// over the feet's centres.
+[[nodiscard]] LegArray<Vec3> StandingPose(const core::RobotDescription& robot, double height_m);
+
+/// From whatever pose the robot lies in to the standing pose: smooth joint interpolation under
+/// joint PD.
+class StandUp {
+ public:
+  StandUp(const StandUpParams& params, const LegArray<Vec3>& goal) noexcept
+      : params_(params), goal_(goal) {}
+
+  /// @param time_s since the controller started.
+  [[nodiscard]] JointCommand Update(const SensorFrame& z, double time_s) noexcept;
+  [[nodiscard]] bool IsDone(double time_s) const noexcept {
+    return time_s >= params_.duration_s + params_.hold_s;
+  }
+
+ private:
+  StandUpParams params_;
+  LegArray<Vec3> goal_;
+  LegArray<Vec3> start_ = ZeroPerLeg();
+  bool started_ = false;
+};
+
+}  // namespace scoria::controller

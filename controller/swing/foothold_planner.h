@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "controller/model/whole_body.h"
+#include "core/config/archive.h"
+#include "core/math/moving_mean.h"
+#include "core/robot/plans.h"
+
+namespace scoria::controller {
+
+struct FootholdParams {
+  double velocity_gain_s = 0.1;
+  int velocity_filter_samples = 20;
+  double max_reach_m = 0.28;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Field("velocity_gain_s", velocity_gain_s,
+            {.min = 0.0, .max = 1.0, .doc = "step out per velocity error (Raibert)"});
+    a.Field("velocity_filter_samples", velocity_filter_samples, {.min = 1, .max = 100});
+    a.Field("max_reach_m", max_reach_m,
+            {.min = 0.05, .max = 1.0, .doc = "horizontal distance from the neutral foothold"});
+  }
+};
+
+/// Footholds after Raibert with the centrifugal term:
+///   p = p_neutral(touchdown) + T_stance/2 v + k (v − v_cmd) + ½ √(h/g) v × ω_cmd,
+/// on the ground plane, clipped to the reach along the direction from the neutral foothold.
+/// Source: [Raibert1986], [Kim2019].
+class FootholdPlanner {
+ public:
+  FootholdPlanner(const FootholdParams& params, const core::RobotDescription& robot,
+                  double gravity_mps2) noexcept;
+
+  [[nodiscard]] FootholdPlan Plan(const WholeBody& wb, const ContactPlan& contacts,
+                                  const BodyReference& reference,
+                                  const GroundPlane& plane) noexcept;
+
+ private:
+  [[nodiscard]] Vec3 Foothold(Leg leg, const Vec3& p_WB_touchdown, double yaw_rad, const Vec3& v_W,
+                              const BodyReference::Stage& reference, double stance_s,
+                              double height_m, const GroundPlane& plane) const noexcept;
+
+  static constexpr int kMaxSamples = 100;
+  FootholdParams params_;
+  const core::RobotDescription& robot_;
+  double gravity_mps2_;
+  core::MovingMean<Vec3, kMaxSamples> velocity_;
+};
+
+}  // namespace scoria::controller

@@ -1,0 +1,403 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/config/node.h"
+#include "core/math/types.h"
+
+/// Configuration structs say once what they hold:
+///
+///     template <class Archive> void Serialize(Archive& a) {
+///       a.Field("period_s", period_s, {.min = 0.1, .max = 2.0, .doc = "full gait cycle"});
+///     }
+///
+/// and that drives reading (ReadConfig), writing (WriteConfig) and documentation (DescribeConfig).
+/// Supported: bool, int, uint64_t, double, string, path (relative to the file that names it), enum
+/// with EnumNames(), Vec3, array, vector, optional, struct with Serialize, and std::variant of
+/// structs that each have kType, chosen by the key `type`.
+namespace scoria::core {
+
+struct FieldRule {
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  const char* doc = "";
+};
+
+/// What DescribeConfig tells of one field.
+struct FieldInfo {
+  std::string key, kind, default_value, doc;
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  bool required = false;
+  std::vector<std::string> choices;  // of an enum
+  std::vector<FieldInfo>
+      children;  // of a struct; of a variant one child per alternative; of a list its element
+};
+
+template <class T>
+concept NamedEnum = std::is_enum_v<T> && requires {
+  EnumNames(T{});
+};
+
+/// The name of an enum value, as configuration files and logs write it.
+template <NamedEnum T>
+[[nodiscard]] std::string_view EnumName(T value) {
+  for (const auto& [v, name] : EnumNames(T{})) {
+    if (v == value) return name;
+  }
+  return "?";
+}
+
+namespace config_detail {
+
+template <class T>
+struct IsVector : std::false_type {};
+template <class T>
+struct IsVector<std::vector<T>> : std::true_type {};
+template <class T>
+struct IsOptional : std::false_type {};
+template <class T>
+struct IsOptional<std::optional<T>> : std::true_type {};
+template <class T>
+struct IsVariant : std::false_type {};
+template <class... Ts>
+struct IsVariant<std::variant<Ts...>> : std::true_type {};
+template <class T>
+struct IsArray : std::false_type {};
+template <class T, std::size_t N>
+struct IsArray<std::array<T, N>> : std::true_type {};
+
+template <class T>
+std::vector<std::string> Choices() {
+  std::vector<std::string> names;
+  for (const auto& [v, name] : EnumNames(T{})) names.emplace_back(name);
+  return names;
+}
+
+template <class... Ts>
+std::vector<std::string> TypeNames(const std::variant<Ts...>*) {
+  return {Ts::kType...};
+}
+
+bool ParseBool(const ConfigNode& node, const std::string& path);
+double ParseDouble(const ConfigNode& node, const std::string& path, const FieldRule& rule);
+std::int64_t ParseInt(const ConfigNode& node, const std::string& path, const FieldRule& rule);
+std::string ParseString(const ConfigNode& node, const std::string& path);
+[[noreturn]] void ThrowUnknownChoice(const ConfigNode& node, const std::string& path,
+                                     std::vector<std::string> choices);
+[[noreturn]] void ThrowKind(const ConfigNode& node, const std::string& path,
+                            std::string_view expected);
+[[noreturn]] void ThrowLength(const ConfigNode& node, const std::string& path, std::size_t want);
+[[noreturn]] void ThrowUnknownKey(const ConfigNode::Entry& entry, const std::string& path,
+                                  const std::vector<std::string>& known);
+std::string FormatDouble(double value);
+ConfigNode Scalar(std::string text);
+
+}  // namespace config_detail
+
+/// Reads one map strictly: after Serialize, every key of the map must have been asked for.
+class ConfigReader {
+ public:
+  ConfigReader(const ConfigNode& node, std::string path) : node_(node), path_(std::move(path)) {
+    if (node.kind != ConfigNode::Kind::kMap && node.kind != ConfigNode::Kind::kNull) {
+      config_detail::ThrowKind(node, path_, "a map");
+    }
+  }
+
+  /// A missing key keeps the default that `value` holds.
+  template <class T>
+  void Field(const char* key, T& value, const FieldRule& rule = {}) {
+    known_.emplace_back(key);
+    if (const ConfigNode* child = node_.Find(key)) Read(*child, PathOf(key), value, rule);
+  }
+
+  template <class T>
+  void Required(const char* key, T& value, const FieldRule& rule = {}) {
+    if (node_.Find(key) == nullptr) {
+      throw ConfigError(node_.origin, PathOf(key), "is missing and has no default");
+    }
+    Field(key, value, rule);
+  }
+
+  void Finish() const {
+    for (const ConfigNode::Entry& entry : node_.entries) {
+      if (std::find(known_.begin(), known_.end(), entry.key) == known_.end()) {
+        config_detail::ThrowUnknownKey(entry, PathOf(entry.key), known_);
+      }
+    }
+  }
+
+  template <class T>
+  static void Read(const ConfigNode& node, const std::string& path, T& value,
+                   const FieldRule& rule = {});
+
+ private:
+  [[nodiscard]] std::string PathOf(const std::string& key) const {
+    return path_.empty() ? key : path_ + "." + key;
+  }
+  template <class Variant>
+  static void ReadVariant(const ConfigNode& node, const std::string& path, Variant& value);
+
+  const ConfigNode& node_;
+  std::string path_;
+  std::vector<std::string> known_;
+};
+
+template <class Variant>
+void ConfigReader::ReadVariant(const ConfigNode& node, const std::string& path, Variant& value) {
+  if (node.kind != ConfigNode::Kind::kMap)
+    config_detail::ThrowKind(node, path, "a map with a type");
+  const ConfigNode* type = node.Find("type");
+  const std::string type_path = path + ".type";
+  if (type == nullptr) {
+    throw ConfigError(
+        node.origin, type_path,
+        fmt::format("is missing; choices: {}", fmt::join(config_detail::TypeNames(&value), ", ")));
+  }
+  bool found = false;
+  auto try_alternative = [&]<class T>(std::type_identity<T>) {
+    if (found || type->scalar != T::kType) return;
+    found = true;
+    T alternative = std::holds_alternative<T>(value) ? std::get<T>(value) : T{};
+    ConfigReader reader(node, path);
+    reader.known_.emplace_back("type");
+    alternative.Serialize(reader);
+    reader.Finish();
+    value = std::move(alternative);
+  };
+  [&]<class... Ts>(const std::variant<Ts...>*) {
+    (try_alternative(std::type_identity<Ts>{}), ...);
+  }(&value);
+  if (!found) config_detail::ThrowUnknownChoice(*type, type_path, config_detail::TypeNames(&value));
+}
+
+template <class T>
+void ConfigReader::Read(const ConfigNode& node, const std::string& path, T& value,
+                        const FieldRule& rule) {
+  namespace d = config_detail;
+  if constexpr (std::is_same_v<T, bool>) {
+    value = d::ParseBool(node, path);
+  } else if constexpr (std::is_integral_v<T>) {
+    value = static_cast<T>(d::ParseInt(node, path, rule));
+  } else if constexpr (std::is_floating_point_v<T>) {
+    value = d::ParseDouble(node, path, rule);
+  } else if constexpr (std::is_same_v<T, std::string>) {
+    value = d::ParseString(node, path);
+  } else if constexpr (std::is_same_v<T, std::filesystem::path>) {
+    const std::filesystem::path given = d::ParseString(node, path);
+    value =
+        given.empty()
+            ? given
+            : (std::filesystem::path(node.origin.file).parent_path() / given).lexically_normal();
+  } else if constexpr (NamedEnum<T>) {
+    const std::string name = d::ParseString(node, path);
+    for (const auto& [v, n] : EnumNames(T{})) {
+      if (n == name) {
+        value = v;
+        return;
+      }
+    }
+    d::ThrowUnknownChoice(node, path, d::Choices<T>());
+  } else if constexpr (d::IsOptional<T>::value) {
+    if (node.kind == ConfigNode::Kind::kNull) {
+      value.reset();
+    } else {
+      Read(node, path, value.emplace(), rule);
+    }
+  } else if constexpr (d::IsVector<T>::value) {
+    if (node.kind != ConfigNode::Kind::kSequence) d::ThrowKind(node, path, "a list");
+    value.clear();
+    for (std::size_t i = 0; i < node.items.size(); ++i) {
+      Read(node.items[i], fmt::format("{}[{}]", path, i), value.emplace_back(), rule);
+    }
+  } else if constexpr (d::IsArray<T>::value || std::is_same_v<T, Vec3>) {
+    if (node.kind != ConfigNode::Kind::kSequence) d::ThrowKind(node, path, "a list");
+    const std::size_t n = static_cast<std::size_t>(value.size());
+    if (node.items.size() != n) d::ThrowLength(node, path, n);
+    for (std::size_t i = 0; i < n; ++i) {
+      Read(node.items[i], fmt::format("{}[{}]", path, i), value[i], rule);
+    }
+  } else if constexpr (d::IsVariant<T>::value) {
+    ReadVariant(node, path, value);
+  } else {
+    ConfigReader reader(node, path);
+    value.Serialize(reader);
+    reader.Finish();
+  }
+}
+
+/// Builds the tree that ReadConfig would read back to an equal value.
+class ConfigWriter {
+ public:
+  template <class T>
+  void Field(const char* key, T& value, const FieldRule& = {}) {
+    node_.entries.push_back({key, {}, Write(value)});
+  }
+  template <class T>
+  void Required(const char* key, T& value, const FieldRule& = {}) {
+    Field(key, value);
+  }
+
+  template <class T>
+  [[nodiscard]] static ConfigNode Write(T& value);
+
+ private:
+  ConfigNode node_{ConfigNode::Kind::kMap, {}, {}, {}, {}};
+};
+
+template <class T>
+ConfigNode ConfigWriter::Write(T& value) {
+  namespace d = config_detail;
+  if constexpr (std::is_same_v<T, bool>) {
+    return d::Scalar(value ? "true" : "false");
+  } else if constexpr (std::is_integral_v<T>) {
+    return d::Scalar(fmt::to_string(value));
+  } else if constexpr (std::is_floating_point_v<T>) {
+    return d::Scalar(d::FormatDouble(value));
+  } else if constexpr (std::is_same_v<T, std::string>) {
+    return d::Scalar(value);
+  } else if constexpr (std::is_same_v<T, std::filesystem::path>) {
+    return d::Scalar(value.empty() ? "" : std::filesystem::absolute(value).string());
+  } else if constexpr (NamedEnum<T>) {
+    return d::Scalar(std::string(EnumName(value)));
+  } else if constexpr (d::IsOptional<T>::value) {
+    return value ? Write(*value) : ConfigNode{};
+  } else if constexpr (d::IsVector<T>::value || d::IsArray<T>::value || std::is_same_v<T, Vec3>) {
+    ConfigNode list{ConfigNode::Kind::kSequence, {}, {}, {}, {}};
+    for (auto& item : value) list.items.push_back(Write(item));
+    return list;
+  } else if constexpr (d::IsVariant<T>::value) {
+    return std::visit(
+        [](auto& alternative) {
+          ConfigWriter writer;
+          writer.node_.entries.push_back({"type", {}, d::Scalar(alternative.kType)});
+          alternative.Serialize(writer);
+          return std::move(writer.node_);
+        },
+        value);
+  } else {
+    ConfigWriter writer;
+    value.Serialize(writer);
+    return std::move(writer.node_);
+  }
+}
+
+/// Lists keys, kinds, defaults, ranges and notes of a struct, for documentation and schemas.
+class ConfigDescriber {
+ public:
+  template <class T>
+  void Field(const char* key, T& value, const FieldRule& rule = {}) {
+    FieldInfo info = Describe(value);
+    info.key = key;
+    info.doc = rule.doc;
+    info.min = rule.min;
+    info.max = rule.max;
+    fields_.push_back(std::move(info));
+  }
+  template <class T>
+  void Required(const char* key, T& value, const FieldRule& rule = {}) {
+    Field(key, value, rule);
+    fields_.back().required = true;
+  }
+  [[nodiscard]] const std::vector<FieldInfo>& fields() const { return fields_; }
+
+  template <class T>
+  [[nodiscard]] static FieldInfo Describe(T& value);
+
+ private:
+  std::vector<FieldInfo> fields_;
+};
+
+template <class T>
+FieldInfo ConfigDescriber::Describe(T& value) {
+  namespace d = config_detail;
+  FieldInfo info;
+  if constexpr (std::is_same_v<T, bool>) {
+    info.kind = "bool";
+  } else if constexpr (std::is_integral_v<T>) {
+    info.kind = "integer";
+  } else if constexpr (std::is_floating_point_v<T>) {
+    info.kind = "number";
+  } else if constexpr (std::is_same_v<T, std::string>) {
+    info.kind = "string";
+  } else if constexpr (std::is_same_v<T, std::filesystem::path>) {
+    info.kind = "path";
+  } else if constexpr (NamedEnum<T>) {
+    info.kind = "choice";
+    info.choices = d::Choices<T>();
+  } else if constexpr (d::IsOptional<T>::value) {
+    typename T::value_type element{};
+    info = Describe(element);
+    info.default_value = "";
+    return info;
+  } else if constexpr (d::IsVector<T>::value) {
+    typename T::value_type element{};
+    info.kind = "list";
+    info.children.push_back(Describe(element));
+  } else if constexpr (d::IsArray<T>::value || std::is_same_v<T, Vec3>) {
+    info.kind = fmt::format("list of {} numbers", value.size());
+  } else if constexpr (d::IsVariant<T>::value) {
+    info.kind = "variant";
+    info.default_value = std::visit([](auto& a) { return std::string(a.kType); }, value);
+    [&]<class... Ts>(const std::variant<Ts...>*) {
+      auto add = [&]<class A>(std::type_identity<A>) {
+        A alternative{};
+        ConfigDescriber describer;
+        alternative.Serialize(describer);
+        FieldInfo child;
+        child.key = A::kType;
+        child.kind = "struct";
+        child.children = describer.fields_;
+        info.children.push_back(std::move(child));
+      };
+      (add(std::type_identity<Ts>{}), ...);
+    }(&value);
+    return info;
+  } else {
+    ConfigDescriber describer;
+    value.Serialize(describer);
+    info.kind = "struct";
+    info.children = describer.fields_;
+    return info;
+  }
+  const ConfigNode node = ConfigWriter::Write(value);
+  std::string text = node.kind == ConfigNode::Kind::kScalar ? node.scalar : EmitYaml(node);
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  info.default_value = text;
+  return info;
+}
+
+/// @returns T with defaults overridden by `node`.
+/// Errors: ConfigError naming file, line, column, key, value and what is allowed.
+template <class T>
+[[nodiscard]] T ReadConfig(const ConfigNode& node) {
+  T value{};
+  ConfigReader::Read(node, "", value);
+  return value;
+}
+
+template <class T>
+[[nodiscard]] ConfigNode WriteConfig(T value) {
+  return ConfigWriter::Write(value);
+}
+
+template <class T>
+[[nodiscard]] FieldInfo DescribeConfig() {
+  T value{};
+  return ConfigDescriber::Describe(value);
+}
+
+}  // namespace scoria::core

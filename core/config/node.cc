@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/config/node.h"
+
+#include <algorithm>
+#include <fstream>
+#include <numeric>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+namespace scoria::core {
+namespace {
+
+namespace fs = std::filesystem;
+
+Origin OriginOf(const YAML::Mark& mark, const std::string& file) {
+  if (mark.is_null()) return {file, 0, 0};
+  return {file, mark.line + 1, mark.column + 1};  // yaml-cpp counts from 0
+}
+
+ConfigNode Convert(const YAML::Node& yaml, const std::string& file, const std::string& path) {
+  ConfigNode node;
+  node.origin = OriginOf(yaml.Mark(), file);
+  switch (yaml.Type()) {
+    case YAML::NodeType::Undefined:
+    case YAML::NodeType::Null:
+      break;
+    case YAML::NodeType::Scalar:
+      node.kind = ConfigNode::Kind::kScalar;
+      node.scalar = yaml.Scalar();
+      break;
+    case YAML::NodeType::Sequence:
+      node.kind = ConfigNode::Kind::kSequence;
+      for (std::size_t i = 0; i < yaml.size(); ++i) {
+        node.items.push_back(Convert(yaml[i], file, fmt::format("{}[{}]", path, i)));
+      }
+      break;
+    case YAML::NodeType::Map:
+      node.kind = ConfigNode::Kind::kMap;
+      for (const auto& pair : yaml) {
+        const std::string key = pair.first.Scalar();
+        const std::string key_path = path.empty() ? key : path + "." + key;
+        const Origin key_origin = OriginOf(pair.first.Mark(), file);
+        if (const ConfigNode* first = node.Find(key)) {
+          throw ConfigError(key_origin, key_path,
+                            fmt::format("given twice, first in line {}", first->origin.line));
+        }
+        ConfigNode value = Convert(pair.second, file, key_path);
+        if (value.origin.line == 0) value.origin = key_origin;  // an empty value has no mark
+        node.entries.push_back({key, key_origin, std::move(value)});
+      }
+      break;
+  }
+  return node;
+}
+
+ConfigNode ParseYaml(const std::string& text, const std::string& name) {
+  try {
+    return Convert(YAML::Load(text), name, "");
+  } catch (const YAML::Exception& e) {
+    throw ConfigError(OriginOf(e.mark, name), "", "not valid YAML: " + e.msg);
+  }
+}
+
+ConfigNode LoadWithBases(const fs::path& file, const Origin& asked_by, std::vector<fs::path> chain);
+
+/// Replaces every map that names a `base` by the base with the map laid over it.
+void ResolveBases(ConfigNode& node, const std::vector<fs::path>& chain) {
+  for (ConfigNode& item : node.items) ResolveBases(item, chain);
+  for (ConfigNode::Entry& entry : node.entries) ResolveBases(entry.value, chain);
+  const ConfigNode* base = node.Find("base");
+  if (base == nullptr) return;
+  if (base->kind != ConfigNode::Kind::kScalar) {
+    throw ConfigError(base->origin, "base", "must be the path of a YAML file");
+  }
+  const fs::path path = fs::path(base->origin.file).parent_path() / base->scalar;
+  ConfigNode merged = LoadWithBases(path, base->origin, chain);
+  std::erase_if(node.entries, [](const ConfigNode::Entry& e) { return e.key == "base"; });
+  MergeConfig(merged, node);
+  merged.origin = node.origin;
+  node = std::move(merged);
+}
+
+ConfigNode LoadWithBases(const fs::path& file, const Origin& asked_by,
+                         std::vector<fs::path> chain) {
+  const fs::path normal = file.lexically_normal();
+  if (std::find(chain.begin(), chain.end(), normal) != chain.end()) {
+    throw ConfigError(asked_by, "base", fmt::format("{} includes itself", normal.string()));
+  }
+  chain.push_back(normal);
+  std::ifstream in(normal);
+  if (!in) {
+    const std::string rule = fmt::format("cannot read the file {}", normal.string());
+    throw ConfigError(asked_by, asked_by.line > 0 ? "base" : "", rule);
+  }
+  std::stringstream text;
+  text << in.rdbuf();
+  ConfigNode node = ParseYaml(text.str(), normal.string());
+  ResolveBases(node, chain);
+  return node;
+}
+
+/// Edits (insert, delete, replace) between two words.
+int EditDistance(std::string_view a, std::string_view b) {
+  std::vector<int> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    int diagonal = row[0];
+    row[0] = static_cast<int>(i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const int replace = diagonal + (a[i - 1] != b[j - 1]);
+      diagonal = row[j];
+      row[j] = std::min({replace, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
+
+bool NeedsQuotes(const std::string& s) {
+  if (s.empty() || s == "~" || s == "null") return true;
+  if (std::string_view("-?:,[]{}#&*!|>'\"%@` ").find(s.front()) != std::string_view::npos) {
+    return !(s.front() == '-' && s.size() > 1 && (std::isdigit(s[1]) || s[1] == '.'));
+  }
+  return s.find_first_of("\n\"#") != std::string::npos || s.find(": ") != std::string::npos ||
+         s.back() == ' ' || s.back() == ':';
+}
+
+void Emit(const ConfigNode& node, YAML::Emitter& out) {
+  switch (node.kind) {
+    case ConfigNode::Kind::kNull:
+      out << YAML::Null;
+      break;
+    case ConfigNode::Kind::kScalar:
+      if (NeedsQuotes(node.scalar)) out << YAML::DoubleQuoted;
+      out << node.scalar;
+      break;
+    case ConfigNode::Kind::kSequence: {
+      const bool flat = std::all_of(node.items.begin(), node.items.end(), [](const auto& item) {
+        return item.kind == ConfigNode::Kind::kScalar;
+      });
+      if (flat) out << YAML::Flow;
+      out << YAML::BeginSeq;
+      for (const ConfigNode& item : node.items) Emit(item, out);
+      out << YAML::EndSeq;
+      break;
+    }
+    case ConfigNode::Kind::kMap:
+      out << YAML::BeginMap;
+      for (const ConfigNode::Entry& entry : node.entries) {
+        out << YAML::Key << entry.key << YAML::Value;
+        Emit(entry.value, out);
+      }
+      out << YAML::EndMap;
+      break;
+  }
+}
+
+}  // namespace
+
+std::string Origin::ToString() const {
+  return line > 0 ? fmt::format("{}:{}:{}", file, line, column) : file;
+}
+
+ConfigError::ConfigError(const Origin& origin, std::string_view key, std::string_view rule)
+    : std::runtime_error(key.empty() ? fmt::format("{}: {}", origin.ToString(), rule)
+                                     : fmt::format("{}: {}: {}", origin.ToString(), key, rule)) {}
+
+const ConfigNode* ConfigNode::Find(std::string_view key) const {
+  for (const Entry& entry : entries) {
+    if (entry.key == key) return &entry.value;
+  }
+  return nullptr;
+}
+
+ConfigNode* ConfigNode::Find(std::string_view key) {
+  return const_cast<ConfigNode*>(static_cast<const ConfigNode*>(this)->Find(key));
+}
+
+ConfigNode LoadConfig(const fs::path& file) {
+  return LoadWithBases(file, {file.string(), 0, 0}, {});
+}
+
+ConfigNode ParseConfig(const std::string& text, const std::string& name) {
+  ConfigNode node = ParseYaml(text, name);
+  ResolveBases(node, {fs::path(name).lexically_normal()});
+  return node;
+}
+
+void MergeConfig(ConfigNode& onto, const ConfigNode& over) {
+  using Kind = ConfigNode::Kind;
+  const ConfigNode* old_type = onto.Find("type");
+  const ConfigNode* new_type = over.Find("type");
+  const bool other_variant =
+      old_type != nullptr && new_type != nullptr && old_type->scalar != new_type->scalar;
+  if (onto.kind != Kind::kMap || over.kind != Kind::kMap || other_variant) {
+    onto = over;
+    return;
+  }
+  for (const ConfigNode::Entry& entry : over.entries) {
+    if (ConfigNode* value = onto.Find(entry.key)) {
+      MergeConfig(*value, entry.value);
+    } else {
+      onto.entries.push_back(entry);
+    }
+  }
+}
+
+void ApplyOverride(ConfigNode& root, const std::string& assignment) {
+  const Origin origin{"--set " + assignment, 0, 0};
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw ConfigError(origin, "", "must read key.subkey=value");
+  }
+  ConfigNode value = ParseYaml(assignment.substr(equals + 1), origin.file);
+  ResolveBases(value, {});
+  value.origin = origin;
+  std::stringstream keys(assignment.substr(0, equals));
+  std::vector<std::string> path;
+  for (std::string key; std::getline(keys, key, '.');) path.push_back(key);
+  for (auto key = path.rbegin(); key != path.rend(); ++key) {
+    ConfigNode map;
+    map.kind = ConfigNode::Kind::kMap;
+    map.origin = origin;
+    map.entries.push_back({*key, origin, std::move(value)});
+    value = std::move(map);
+  }
+  MergeConfig(root, value);
+}
+
+std::string EmitYaml(const ConfigNode& node) {
+  YAML::Emitter out;
+  Emit(node, out);
+  return std::string(out.c_str()) + "\n";
+}
+
+std::string DidYouMean(std::string_view word, const std::vector<std::string>& choices) {
+  const std::string* best = nullptr;
+  int best_distance = 1 + static_cast<int>(std::max<std::size_t>(2, word.size() / 3));
+  for (const std::string& choice : choices) {
+    const int distance = EditDistance(word, choice);
+    if (distance < best_distance) {
+      best_distance = distance;
+      best = &choice;
+    }
+  }
+  return best == nullptr ? "" : fmt::format(" (did you mean \"{}\"?)", *best);
+}
+
+}  // namespace scoria::core

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/robot/description.h"
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include <urdf_parser/urdf_parser.h>
+
+namespace scoria::core {
+namespace {
+
+[[noreturn]] void Fail(const RobotConfig& config, const std::string& key, const std::string& rule) {
+  throw ConfigError({config.urdf.string(), 0, 0}, key, rule);
+}
+
+Vec3 ToVec3(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
+
+Mat3 ToMat3(const urdf::Rotation& r) {
+  double x, y, z, w;
+  r.getQuaternion(x, y, z, w);
+  return Quat(w, x, y, z).normalized().toRotationMatrix();
+}
+
+struct Pose {
+  Mat3 R = Mat3::Identity();
+  Vec3 p = Vec3::Zero();
+  [[nodiscard]] Pose operator*(const urdf::Pose& X) const {
+    return {R * ToMat3(X.rotation), p + R * ToVec3(X.position)};
+  }
+};
+
+/// Parallel axis theorem: inertia of a point mass at `d` from the reference point.
+Mat3 PointInertia(double mass, const Vec3& d) {
+  return mass * (d.squaredNorm() * Mat3::Identity() - d * d.transpose());
+}
+
+void MergeInertia(Body& body, double mass, const Vec3& p_LC, const Mat3& I_C_L) {
+  if (mass <= 0.0) return;
+  const double total = body.mass_kg + mass;
+  const Vec3 c = (body.mass_kg * body.p_LC + mass * p_LC) / total;
+  body.I_C_L += PointInertia(body.mass_kg, body.p_LC - c) + I_C_L + PointInertia(mass, p_LC - c);
+  body.mass_kg = total;
+  body.p_LC = c;
+}
+
+/// Walks the URDF tree, merging fixed links into the thirteen bodies.
+class TreeWalker {
+ public:
+  TreeWalker(const RobotConfig& config, const urdf::ModelInterface& model, RobotDescription& robot)
+      : config_(config), model_(model), robot_(robot) {
+    for (const Leg leg : kLegs) {
+      const LegNames names = config.legs.ToLegArray()[leg];
+      joint_index_[names.haa] = BodyIndex(leg, Joint::kHAA);
+      joint_index_[names.hfe] = BodyIndex(leg, Joint::kHFE);
+      joint_index_[names.kfe] = BodyIndex(leg, Joint::kKFE);
+      foot_leg_[names.foot] = leg;
+    }
+  }
+
+  void Walk() {
+    Visit(*model_.getRoot(), 0, Pose{});
+    for (const auto& [name, index] : joint_index_) {
+      if (!seen_.contains(name)) {
+        Fail(config_, "legs", fmt::format("the URDF has no movable joint \"{}\"", name));
+      }
+    }
+    for (const Leg leg : kLegs) {
+      if (robot_.legs[leg].foot_radius_m <= 0.0) {
+        Fail(config_, "legs",
+             fmt::format("foot link \"{}\" is missing or has no collision sphere",
+                         config_.legs.ToLegArray()[leg].foot));
+      }
+    }
+  }
+
+ private:
+  Body& BodyAt(int index) { return const_cast<Body&>(robot_.body(index)); }
+
+  void Visit(const urdf::Link& link, int body, const Pose& X_L) {
+    if (X_L.p.isZero() && X_L.R.isIdentity() && BodyAt(body).name.empty()) {
+      BodyAt(body).name = link.name;
+    }
+    if (link.inertial) AddInertia(link, body, X_L);
+    if (link.name == config_.imu_link) {
+      robot_.p_BS = X_L.p;
+      robot_.R_BS = X_L.R;
+    }
+    AddShapes(link, body, X_L);
+    for (const auto& joint : link.child_joints) VisitJoint(*joint, body, X_L);
+  }
+
+  void VisitJoint(const urdf::Joint& joint, int body, const Pose& X_L) {
+    const Pose X_J = X_L * joint.parent_to_joint_origin_transform;
+    const auto child = model_.getLink(joint.child_link_name);
+    if (joint.type == urdf::Joint::FIXED) {
+      Visit(*child, body, X_J);
+      return;
+    }
+    const auto found = joint_index_.find(joint.name);
+    if (joint.type != urdf::Joint::REVOLUTE || found == joint_index_.end()) {
+      Fail(config_, joint.name,
+           "is a movable joint that no leg names; it must be fixed or revolute in a leg");
+    }
+    const int index = found->second;
+    const Leg leg = kLegs[static_cast<std::size_t>((index - 1) / kJointsPerLeg)];
+    const auto j = static_cast<std::size_t>((index - 1) % kJointsPerLeg);
+    if (body != (j == 0 ? 0 : index - 1)) {
+      Fail(config_, joint.name, "does not follow the chain trunk, HAA, HFE, KFE");
+    }
+    if (!joint.limits || joint.limits->effort <= 0.0) {
+      Fail(config_, joint.name, "needs a limit element with a positive effort");
+    }
+    robot_.legs[leg].joints[j] = {joint.name,
+                                  X_J.p,
+                                  X_J.R,
+                                  ToVec3(joint.axis).normalized(),
+                                  joint.limits->lower,
+                                  joint.limits->upper,
+                                  joint.limits->effort,
+                                  joint.limits->velocity};
+    seen_.insert({joint.name, index});
+    Visit(*child, index, Pose{});
+  }
+
+  void AddInertia(const urdf::Link& link, int body, const Pose& X_L) {
+    const urdf::Inertial& in = *link.inertial;
+    if (in.mass < 0.0 || !std::isfinite(in.mass)) {
+      Fail(config_, link.name, fmt::format("mass {} must be >= 0", in.mass));
+    }
+    Mat3 I;
+    I << in.ixx, in.ixy, in.ixz, in.ixy, in.iyy, in.iyz, in.ixz, in.iyz, in.izz;
+    const Pose X_C = X_L * in.origin;
+    MergeInertia(BodyAt(body), in.mass, X_C.p, X_C.R * I * X_C.R.transpose());
+  }
+
+  void AddShapes(const urdf::Link& link, int body, const Pose& X_L) {
+    for (const auto& collision : link.collision_array) {
+      if (!collision->geometry) continue;
+      Shape shape = ToShape(*collision->geometry, body, X_L * collision->origin);
+      const auto foot = foot_leg_.find(link.name);
+      if (foot != foot_leg_.end() && shape.kind == Shape::Kind::kSphere) {
+        LegDescription& leg = robot_.legs[foot->second];
+        leg.p_LF = shape.p_LG;
+        leg.foot_radius_m = shape.size_m.x();
+        shape.is_foot = true;
+      }
+      robot_.collisions.push_back(shape);
+    }
+    for (const auto& visual : link.visual_array) {
+      if (!visual->geometry) continue;
+      Shape shape = ToShape(*visual->geometry, body, X_L * visual->origin);
+      if (visual->material) {
+        const urdf::Color& c = visual->material->color;
+        shape.colour = {c.r, c.g, c.b};
+      }
+      robot_.visuals.push_back(shape);
+    }
+  }
+
+  Shape ToShape(const urdf::Geometry& geometry, int body, const Pose& X_G) const {
+    Shape shape;
+    shape.body = body;
+    shape.p_LG = X_G.p;
+    shape.R_LG = X_G.R;
+    if (geometry.type == urdf::Geometry::BOX) {
+      shape.kind = Shape::Kind::kBox;
+      shape.size_m = ToVec3(dynamic_cast<const urdf::Box&>(geometry).dim);
+    } else if (geometry.type == urdf::Geometry::CYLINDER) {
+      const auto& cylinder = dynamic_cast<const urdf::Cylinder&>(geometry);
+      shape.kind = Shape::Kind::kCylinder;
+      shape.size_m = {cylinder.radius, cylinder.length, 0.0};
+    } else if (geometry.type == urdf::Geometry::SPHERE) {
+      shape.kind = Shape::Kind::kSphere;
+      shape.size_m = {dynamic_cast<const urdf::Sphere&>(geometry).radius, 0.0, 0.0};
+    } else {
+      Fail(config_, robot_.body(body).name, "has a mesh; use box, cylinder or sphere");
+    }
+    return shape;
+  }
+
+  const RobotConfig& config_;
+  const urdf::ModelInterface& model_;
+  RobotDescription& robot_;
+  std::map<std::string, int> joint_index_, seen_;
+  std::map<std::string, Leg> foot_leg_;
+};
+
+}  // namespace
+
+double RobotDescription::total_mass_kg() const {
+  double mass = 0.0;
+  for (int i = 0; i < kNumBodies; ++i) mass += body(i).mass_kg;
+  return mass;
+}
+
+Vec3 RobotDescription::NeutralFoothold(Leg leg) const {
+  Vec3 p = IsFront(leg) ? config.stance_front_m : config.stance_hind_m;
+  if (!IsLeft(leg)) p.y() = -p.y();
+  return p;
+}
+
+LegArray<Vec3> RobotDescription::EffortLimits() const {
+  LegArray<Vec3> limits = ZeroPerLeg();
+  for (const Leg leg : kLegs) {
+    for (int j = 0; j < kJointsPerLeg; ++j) {
+      limits[leg][j] = legs[leg].joints[static_cast<std::size_t>(j)].effort_Nm;
+    }
+  }
+  return limits;
+}
+
+const Body& RobotDescription::body(int index) const {
+  if (index == 0) return trunk;
+  const Leg leg = kLegs[static_cast<std::size_t>((index - 1) / kJointsPerLeg)];
+  return legs[leg].links[static_cast<std::size_t>((index - 1) % kJointsPerLeg)];
+}
+
+RobotDescription LoadRobot(const RobotConfig& config) {
+  std::ifstream in(config.urdf);
+  if (!in) Fail(config, "urdf", "cannot read the file");
+  std::stringstream text;
+  text << in.rdbuf();
+  return MakeRobot(config, text.str());
+}
+
+RobotDescription MakeRobot(const RobotConfig& config, const std::string& urdf_text) {
+  const auto model = urdf::parseURDF(urdf_text);
+  if (!model) Fail(config, "urdf", "not a valid URDF");
+  RobotDescription robot;
+  robot.config = config;
+  robot.urdf_text = urdf_text;
+  TreeWalker(config, *model, robot).Walk();
+  for (int i = 0; i < kNumBodies; ++i) {
+    if (robot.body(i).mass_kg <= 0.0) Fail(config, robot.body(i).name, "needs a positive mass");
+  }
+  return robot;
+}
+
+}  // namespace scoria::core

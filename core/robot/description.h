@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/config/archive.h"
+#include "core/robot/legs.h"
+
+namespace scoria::core {
+
+/// Names that tie a leg of the house convention to a URDF.
+struct LegNames {
+  std::string haa, hfe, kfe;  // joints
+  std::string foot;           // link whose collision sphere is the foot
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Required("haa", haa, {.doc = "joint name, hip abduction"});
+    a.Required("hfe", hfe, {.doc = "joint name, hip flexion"});
+    a.Required("kfe", kfe, {.doc = "joint name, knee flexion"});
+    a.Required("foot", foot, {.doc = "link whose collision sphere is the foot"});
+  }
+};
+
+struct LegNamesPerLeg {
+  LegNames fl, fr, hl, hr;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Required("FL", fl);
+    a.Required("FR", fr);
+    a.Required("HL", hl);
+    a.Required("HR", hr);
+  }
+  [[nodiscard]] LegArray<LegNames> ToLegArray() const { return {fl, fr, hl, hr}; }
+};
+
+/// Drive train and electrical model of the joints HAA, HFE, KFE. Electrical power of the robot is
+/// P = idle + sum_j max(0, tau w + copper_loss tau^2), without regeneration.
+struct MotorParams {
+  Vec3 armature_kgm2 = Vec3::Constant(0.01);
+  Vec3 damping_Nms_per_rad = Vec3::Constant(0.1);
+  Vec3 friction_Nm = Vec3::Constant(0.2);
+  Vec3 copper_loss_W_per_Nm2 = Vec3::Constant(0.5);
+  double idle_W = 50.0;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    constexpr double kNone = 0.0;
+    a.Field("armature_kgm2", armature_kgm2,
+            {.min = kNone, .max = 1.0, .doc = "rotor inertia felt at the joint"});
+    a.Field("damping_Nms_per_rad", damping_Nms_per_rad, {.min = kNone, .max = 10.0});
+    a.Field("friction_Nm", friction_Nm, {.min = kNone, .max = 10.0, .doc = "Coulomb friction"});
+    a.Field("copper_loss_W_per_Nm2", copper_loss_W_per_Nm2, {.min = kNone, .max = 100.0});
+    a.Field("idle_W", idle_W, {.min = kNone, .max = 1000.0, .doc = "computer and drives"});
+  }
+};
+
+/// A robot's YAML file.
+struct RobotConfig {
+  std::string name;
+  std::filesystem::path urdf;
+  LegNamesPerLeg legs;
+  std::string imu_link;
+  double nominal_height_m = 0.30;
+  Vec3 stance_front_m = Vec3(0.19, 0.14, 0.0);
+  Vec3 stance_hind_m = Vec3(-0.19, 0.14, 0.0);
+  Vec3 lying_pose_rad = Vec3(0.0, 1.34, -2.67);
+  double max_leg_length_m = 0.40;
+  bool has_foot_sensors = true;
+  MotorParams motors;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Required("name", name);
+    a.Required("urdf", urdf, {.doc = "relative to this file"});
+    a.Required("legs", legs);
+    a.Field("imu_link", imu_link, {.doc = "link at the IMU; empty: the base link"});
+    a.Field("nominal_height_m", nominal_height_m,
+            {.min = 0.05, .max = 2.0, .doc = "COM over the ground when walking"});
+    a.Field("stance_front_m", stance_front_m,
+            {.doc = "neutral front left foothold from the base link, x y; mirrored to the right"});
+    a.Field("stance_hind_m", stance_hind_m, {.doc = "as stance_front_m, hind"});
+    a.Field("lying_pose_rad", lying_pose_rad, {.doc = "HAA, HFE, KFE when folded on the ground"});
+    a.Field("max_leg_length_m", max_leg_length_m,
+            {.min = 0.05, .max = 2.0, .doc = "hip to foot; footholds beyond are clipped"});
+    a.Field("has_foot_sensors", has_foot_sensors);
+    a.Field("motors", motors);
+  }
+};
+
+/// A rigid body with all links that are fixed to it merged in. L is its link frame, C its centre of
+/// mass.
+struct Body {
+  std::string name;
+  double mass_kg = 0.0;
+  Vec3 p_LC = Vec3::Zero();
+  Mat3 I_C_L = Mat3::Zero();  // kg m^2, about C, in L
+};
+
+struct JointDescription {
+  std::string name;
+  Vec3 p_PJ = Vec3::Zero();  // joint frame in the parent link
+  Mat3 R_PJ = Mat3::Identity();
+  Vec3 axis_J = Vec3::UnitX();
+  double lower_rad = 0.0, upper_rad = 0.0, effort_Nm = 0.0, velocity_radps = 0.0;
+};
+
+struct LegDescription {
+  std::array<JointDescription, 3> joints;
+  std::array<Body, 3> links;
+  Vec3 p_LF = Vec3::Zero();  // foot sphere centre in the shank
+  double foot_radius_m = 0.0;
+};
+
+/// A primitive for collision or drawing, fixed to a body: 0 the trunk, 1 + 3 leg + joint a link.
+struct Shape {
+  enum class Kind { kBox, kCylinder, kSphere };
+  Kind kind = Kind::kBox;
+  int body = 0;
+  bool is_foot = false;
+  Vec3 size_m = Vec3::Zero();  // box: full edges; cylinder: radius, length; sphere: radius
+  Vec3 p_LG = Vec3::Zero();    // geometry centre in the body's link frame; cylinders along their z
+  Mat3 R_LG = Mat3::Identity();
+  std::array<float, 3> colour = {0.7f, 0.7f, 0.7f};
+};
+
+/// A quadruped in the house convention: a trunk and four legs of HAA, HFE, KFE. Built once, then
+/// constant.
+struct RobotDescription {
+  RobotConfig config;
+  std::string urdf_text;
+  Body trunk;
+  LegArray<LegDescription> legs;
+  Vec3 p_BS = Vec3::Zero();  // IMU in the trunk
+  Mat3 R_BS = Mat3::Identity();
+  std::vector<Shape> collisions, visuals;
+
+  [[nodiscard]] double total_mass_kg() const;
+  /// Neutral foothold in the trunk frame at z = 0: below the hip, widened by the abduction link.
+  [[nodiscard]] Vec3 NeutralFoothold(Leg leg) const;
+  /// Smallest effort limits per joint, N m, as LegArray of (HAA, HFE, KFE).
+  [[nodiscard]] LegArray<Vec3> EffortLimits() const;
+  [[nodiscard]] const Body& body(int index) const;
+};
+
+inline constexpr int kNumBodies = 1 + kNumJoints;
+[[nodiscard]] constexpr int BodyIndex(Leg leg, Joint joint) noexcept {
+  return 1 + kJointsPerLeg * static_cast<int>(leg) + static_cast<int>(joint);
+}
+
+/// Loads the URDF that `config` names.
+/// Errors: ConfigError that names the file and what is missing or wrong.
+[[nodiscard]] RobotDescription LoadRobot(const RobotConfig& config);
+
+/// As LoadRobot, from URDF text (a log carries it).
+[[nodiscard]] RobotDescription MakeRobot(const RobotConfig& config, const std::string& urdf_text);
+
+}  // namespace scoria::core

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/robot/legs.h"
+
+namespace scoria {
+
+/// Floating-base configuration and velocity. All vectors in W; B is the URDF base link.
+struct RobotState {
+  Vec3 p_WB = Vec3::Zero();  // m
+  Mat3 R_WB = Mat3::Identity();
+  Vec3 v_WB = Vec3::Zero();          // m/s, of B's origin
+  Vec3 w_WB = Vec3::Zero();          // rad/s
+  LegArray<Vec3> q = ZeroPerLeg();   // rad
+  LegArray<Vec3> qd = ZeroPerLeg();  // rad/s
+  bool operator==(const RobotState&) const = default;
+};
+
+/// What the sensors of one physics step say. `truth` is set only where the scenario asks for the
+/// `truth` estimator.
+struct SensorFrame {
+  struct Truth {
+    RobotState state;
+    LegArray<bool> contact;
+    bool operator==(const Truth&) const = default;
+  };
+  std::int64_t step = 0;
+  LegArray<Vec3> q = ZeroPerLeg();       // rad, encoders
+  LegArray<Vec3> qd = ZeroPerLeg();      // rad/s
+  LegArray<Vec3> tau_Nm = ZeroPerLeg();  // motor torque
+  Vec3 a_WS_S = Vec3::Zero();            // m/s^2, specific force: +g upward at rest
+  Vec3 w_WS_S = Vec3::Zero();            // rad/s
+  LegArray<double> foot_force_N;         // normal force per foot
+  std::optional<Truth> truth;
+  bool operator==(const SensorFrame&) const = default;
+};
+
+/// What each motor is asked for: tau = tau_ff + kp (q - q_meas) + kd (qd - qd_meas), evaluated
+/// every physics step.
+struct JointCommand {
+  LegArray<Vec3> q = ZeroPerLeg();       // rad
+  LegArray<Vec3> qd = ZeroPerLeg();      // rad/s
+  LegArray<Vec3> tau_Nm = ZeroPerLeg();  // feed-forward
+  LegArray<Vec3> kp_Nm_per_rad = ZeroPerLeg();
+  LegArray<Vec3> kd_Nms_per_rad = ZeroPerLeg();
+  bool operator==(const JointCommand&) const = default;
+};
+
+/// What the operator asks for, in the heading frame H.
+struct Command {
+  double v_x_mps = 0.0, v_y_mps = 0.0;
+  double w_z_radps = 0.0;
+  double height_m = 0.0;  // COM over the ground; 0 means the robot's nominal height
+  double roll_rad = 0.0, pitch_rad = 0.0;
+  [[nodiscard]] bool IsStop() const noexcept {
+    return v_x_mps == 0.0 && v_y_mps == 0.0 && w_z_radps == 0.0;
+  }
+  bool operator==(const Command&) const = default;
+};
+
+}  // namespace scoria

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/actuation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace scoria::sim {
+namespace {
+
+/// Largest torque in the direction of motion: full effort up to this share of the no-load speed,
+/// then linear to zero.
+constexpr double kKneeShare = 0.7;
+constexpr double kFrictionVelocity_radps =
+    0.1;  // tanh smoothing; stable with any armature above 2e-3 kg m^2
+
+double Envelope(double tau, double qd, double effort, double no_load) noexcept {
+  double limit = effort;
+  if (tau * qd > 0.0 && no_load > 0.0) {
+    const double above = (std::abs(qd) / no_load - kKneeShare) / (1.0 - kKneeShare);
+    limit = effort * std::clamp(1.0 - above, 0.0, 1.0);
+  }
+  return std::clamp(tau, -limit, limit);
+}
+
+}  // namespace
+
+Actuation::Actuation(const core::RobotDescription& robot)
+    : robot_(robot), effort_Nm_(robot.EffortLimits()) {}
+
+LegArray<Vec3> Actuation::Update(const JointCommand& command, const LegArray<Vec3>& q,
+                                 const LegArray<Vec3>& qd, double dt_s) noexcept {
+  const core::MotorParams& motors = robot_.config.motors;
+  LegArray<Vec3> tau_joint = ZeroPerLeg();
+  double electrical_W = motors.idle_W, absolute_W = 0.0, positive_W = 0.0;
+  for (const Leg leg : kLegs) {
+    for (int j = 0; j < kJointsPerLeg; ++j) {
+      const double w = qd[leg][j];
+      const double wanted = command.tau_Nm[leg][j] +
+                            command.kp_Nm_per_rad[leg][j] * (command.q[leg][j] - q[leg][j]) +
+                            command.kd_Nms_per_rad[leg][j] * (command.qd[leg][j] - w);
+      const double no_load = robot_.legs[leg].joints[static_cast<std::size_t>(j)].velocity_radps;
+      const double tau = Envelope(wanted, w, effort_Nm_[leg][j], no_load);
+      motor_tau_Nm_[leg][j] = tau;
+      tau_joint[leg][j] = tau - motors.friction_Nm[j] * std::tanh(w / kFrictionVelocity_radps);
+      absolute_W += std::abs(tau * w);
+      positive_W += std::max(tau * w, 0.0);
+      electrical_W += std::max(0.0, tau * w + motors.copper_loss_W_per_Nm2[j] * tau * tau);
+    }
+  }
+  energy_.mech_abs_J += absolute_W * dt_s;
+  energy_.mech_pos_J += positive_W * dt_s;
+  energy_.electrical_J += electrical_W * dt_s;
+  energy_.electrical_W = electrical_W;
+  return tau_joint;
+}
+
+}  // namespace scoria::sim

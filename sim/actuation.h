@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/robot/description.h"
+#include "core/robot/state.h"
+
+namespace scoria::sim {
+
+/// Energy drawn since the start, integrated every physics step. m is not in here: cost of transport
+/// divides later.
+struct EnergyMeter {
+  double mech_abs_J = 0.0;    // Σ |τ ω|
+  double mech_pos_J = 0.0;    // Σ max(τ ω, 0)
+  double electrical_J = 0.0;  // idle + Σ max(0, τ ω + k τ²)
+  double electrical_W = 0.0;  // now
+  bool operator==(const EnergyMeter&) const = default;
+};
+
+/// Motors with gear: joint PD, torque-speed envelope, Coulomb friction, electrical power. Rotor
+/// inertia and viscous damping act inside the physics step (World).
+class Actuation {
+ public:
+  explicit Actuation(const core::RobotDescription& robot);
+
+  /// Torque at the joints under `command` at joint state (q, qd), for a step of dt. Also meters the
+  /// energy.
+  [[nodiscard]] LegArray<Vec3> Update(const JointCommand& command, const LegArray<Vec3>& q,
+                                      const LegArray<Vec3>& qd, double dt_s) noexcept;
+
+  /// Motor torques of the last step, before friction.
+  [[nodiscard]] const LegArray<Vec3>& motor_tau_Nm() const noexcept { return motor_tau_Nm_; }
+  [[nodiscard]] const EnergyMeter& energy() const noexcept { return energy_; }
+
+ private:
+  const core::RobotDescription& robot_;
+  LegArray<Vec3> effort_Nm_;
+  LegArray<Vec3> motor_tau_Nm_ = ZeroPerLeg();
+  EnergyMeter energy_;
+};
+
+}  // namespace scoria::sim

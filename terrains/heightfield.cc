@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "terrains/heightfield.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/demand.h"
+
+namespace scoria::terrains {
+namespace {
+
+/// Catmull-Rom weights of the four nodes around t in [0, 1], and their derivatives.
+struct Weights {
+  double w[4], d[4];
+  explicit Weights(double t) noexcept
+      : w{t * (t * (-0.5 * t + 1.0) - 0.5), t * t * (1.5 * t - 2.5) + 1.0,
+          t * (t * (-1.5 * t + 2.0) + 0.5), t * t * (0.5 * t - 0.5)},
+        d{t * (-1.5 * t + 2.0) - 0.5, t * (4.5 * t - 5.0), t * (-4.5 * t + 4.0) + 0.5,
+          t * (1.5 * t - 1.0)} {}
+};
+
+}  // namespace
+
+Heightfield::Heightfield(int nodes, double resolution_m, std::vector<double> heights_m,
+                         double friction)
+    : nodes_(nodes),
+      resolution_m_(resolution_m),
+      heights_m_(std::move(heights_m)),
+      friction_(friction) {
+  SCORIA_DEMAND(nodes >= 2 && heights_m_.size() ==
+                                  static_cast<std::size_t>(nodes) * static_cast<std::size_t>(nodes),
+                "nodes {}, heights {}", nodes, heights_m_.size());
+  const auto [low, high] = std::minmax_element(heights_m_.begin(), heights_m_.end());
+  min_m_ = *low;
+  max_m_ = *high;
+}
+
+double Heightfield::NodeHeight(int column, int row) const noexcept {
+  const auto c = static_cast<std::size_t>(std::clamp(column, 0, nodes_ - 1));
+  const auto r = static_cast<std::size_t>(std::clamp(row, 0, nodes_ - 1));
+  return heights_m_[r * static_cast<std::size_t>(nodes_) + c];
+}
+
+Vec2 Heightfield::NodePosition(int column, int row) const noexcept {
+  return {column * resolution_m_ - half_size_m(), row * resolution_m_ - half_size_m()};
+}
+
+Heightfield::Sample Heightfield::At(double x_m, double y_m) const noexcept {
+  const double limit = nodes_ - 1.0;
+  const double u = std::clamp((x_m + half_size_m()) / resolution_m_, 0.0, limit);
+  const double v = std::clamp((y_m + half_size_m()) / resolution_m_, 0.0, limit);
+  const int i = static_cast<int>(u), j = static_cast<int>(v);
+  const Weights wx(u - i), wy(v - j);
+  Sample sample;
+  const bool inside = i >= 1 && j >= 1 && i + 2 < nodes_ && j + 2 < nodes_;
+  for (int b = 0; b < 4; ++b) {
+    double row = 0.0, row_dx = 0.0;
+    const double* node =
+        inside ? heights_m_.data() + static_cast<std::ptrdiff_t>(j + b - 1) * nodes_ + i - 1
+               : nullptr;
+    for (int a = 0; a < 4; ++a) {
+      const double z = inside ? node[a] : NodeHeight(i + a - 1, j + b - 1);
+      row += wx.w[a] * z;
+      row_dx += wx.d[a] * z;
+    }
+    sample.z_m += wy.w[b] * row;
+    sample.gradient.x() += wy.w[b] * row_dx;
+    sample.gradient.y() += wy.d[b] * row;
+  }
+  sample.gradient /= resolution_m_;
+  return sample;
+}
+
+}  // namespace scoria::terrains
