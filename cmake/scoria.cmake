@@ -13,6 +13,8 @@ set(CMAKE_CXX_FLAGS_DEBUG "-O0 -g")
 add_library(scoria_options INTERFACE)
 target_compile_options(scoria_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wold-style-cast
+  # g++ 12 reports these falsely, inside the standard library, fmt and Eigen, when it inlines at -O3.
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow>
   $<$<BOOL:${SCORIA_WERROR}>:-Werror>
   $<$<BOOL:${SCORIA_MARCH}>:-march=${SCORIA_MARCH}>)
 if(SCORIA_SANITIZE)

@@ -3,7 +3,9 @@
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
-#include <Eigen/Cholesky>
+
+#include "core/demand.h"
+#include "core/math/cholesky.h"
 
 static_assert(sizeof(btScalar) == 8, "scoria needs Bullet in double precision (bullet-float64)");
 
@@ -27,9 +29,10 @@ class RotorCorrection {
       force[6 + j] = 0.0;
     }
     root_ = (drives_.armature_kgm2 + dt * drives_.damping_Nms_per_rad).cwiseSqrt();
-    Mat12 inner = root_.asDiagonal() * response_.bottomRows<12>() * root_.asDiagonal();
-    inner.diagonal().array() += 1.0;
-    inner_.compute(inner);
+    inner_ = root_.asDiagonal() * response_.bottomRows<12>() * root_.asDiagonal();
+    inner_.diagonal().array() += 1.0;
+    const bool positive = core::FactorCholesky<12>(inner_);
+    SCORIA_DEMAND(positive, "mass matrix of the joints is not positive definite");
   }
 
   /// Velocity change by the impulses that rotors and dampers exert over the step without contacts.
@@ -41,20 +44,26 @@ class RotorCorrection {
         (root_.array() > 0.0)
             .select(momentum.array() / root_.array() - root_.array() * velocity.tail<12>().array(),
                     0.0);
-    return response_ * root_.cwiseProduct(inner_.solve(rhs));
+    return response_ * root_.cwiseProduct(SolveInner(rhs));
   }
 
   /// H⁻¹Jᵀ to (H + A + D dt)⁻¹Jᵀ.
   void Correct(Eigen::Map<Vec18>& response) const {
-    const Vec12 inner = inner_.solve(Vec12(root_.cwiseProduct(response.tail<12>())));
+    const Vec12 inner = SolveInner(root_.cwiseProduct(response.tail<12>()));
     response -= response_ * root_.cwiseProduct(inner);
   }
 
  private:
+  [[nodiscard]] Vec12 SolveInner(Vec12 b) const {
+    core::SolveLower<12, 1>(inner_, b);
+    core::SolveLowerTransposed<12>(inner_, b);
+    return b;
+  }
+
   const RotorDrives& drives_;
   Mat18x12 response_;  // H⁻¹E
   Vec12 root_ = Vec12::Zero();
-  Eigen::LLT<Mat12> inner_;
+  Mat12 inner_;  // Cholesky factor
   btAlignedObjectArray<btScalar> scratch_r_;
   btAlignedObjectArray<btVector3> scratch_v_;
 };

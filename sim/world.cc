@@ -14,7 +14,7 @@
 #include <btBulletDynamicsCommon.h>
 
 #include "core/demand.h"
-#include "sim/foot_contact.h"
+#include "sim/ground_contact.h"
 #include "sim/rotor_solver.h"
 
 namespace scoria::sim {
@@ -83,7 +83,7 @@ struct World::Impl {
 
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher{&configuration};
-  FootContact foot_contact;
+  GroundContact ground_contact;
   btDbvtBroadphase broadphase;
   std::unique_ptr<btMultiBodyConstraintSolver> solver;
   std::unique_ptr<btMultiBodyDynamicsWorld> world;
@@ -101,7 +101,7 @@ World::Impl::Impl(const RobotDescription& robot_in, const terrains::Heightfield&
     : robot(robot_in),
       ground(ground_in),
       params(params_in),
-      foot_contact(dispatcher, ground_in),
+      ground_contact(dispatcher, ground_in),
       solver(MakeRotorSolver(drives)),
       world(std::make_unique<btMultiBodyDynamicsWorld>(&dispatcher, &broadphase, solver.get(),
                                                        &configuration)) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/math/cholesky.h"
+
 namespace scoria::controller {
 namespace {
 
@@ -24,24 +26,6 @@ auto WithFeet(int feet, Function&& function) {
     default:
       return function.template operator()<4>();
   }
-}
-
-/// Lower Cholesky factor in place; false if a pivot is not positive.
-template <int n>
-bool FactorLower(Mat12& A) noexcept {
-  for (int j = 0; j < n; ++j) {
-    double d = A(j, j);
-    for (int k = 0; k < j; ++k) d -= A(j, k) * A(j, k);
-    if (!(d > 0.0)) return false;
-    const double root = std::sqrt(d), inverse = 1.0 / root;
-    A(j, j) = root;
-    for (int i = j + 1; i < n; ++i) {
-      double v = A(i, j);
-      for (int k = 0; k < j; ++k) v -= A(i, k) * A(j, k);
-      A(i, j) = v * inverse;
-    }
-  }
-  return true;
 }
 
 }  // namespace
@@ -172,18 +156,20 @@ bool RiccatiIpm::FactorizeStage(const OcpStage& data, bool euler, Stage& stage) 
       H(2, 0) += friction_ * (w[1] - w[0]);
       H(2, 1) += friction_ * (w[3] - w[2]);
     }
-    if (!FactorLower<n>(stage.L)) return false;
-    auto Y = stage.Y.template topRows<n>();
-    Y = BPA;
-    stage.L.template topLeftCorner<n, n>().template triangularView<Eigen::Lower>().solveInPlace(Y);
+    if (!core::FactorCholesky<n>(stage.L)) return false;
+    stage.Y.template topRows<n>() = BPA;
+    core::SolveLower<n, 12>(stage.L, stage.Y);
   }
   const Mat6 lower_right = data.F.transpose() * E + G;
   P_.topRightCorner<6, 6>() = E;
   P_.bottomLeftCorner<6, 6>() = E.transpose();
   P_.bottomRightCorner<6, 6>() = lower_right;
   if constexpr (kFeet > 0) {
-    const Eigen::Matrix<double, n, 12> Y = stage.Y.template topRows<n>();
-    P_.noalias() -= Y.transpose() * Y;
+    for (int c = 0; c < n; ++c) {
+      for (int i = 0; i < 12; ++i) {
+        for (int j = 0; j < 12; ++j) P_(j, i) -= stage.Y(c, i) * stage.Y(c, j);
+      }
+    }
   }
   P_.diagonal() += data.Q;
   return true;
@@ -211,7 +197,7 @@ void RiccatiIpm::BackwardStage(const OcpStage& data, Stage& stage, Vec12& p) con
   if constexpr (kFeet > 0) {
     Eigen::Matrix<double, n, 1> h = stage.r_tilde.template head<n>();
     h.noalias() += stage.B.template leftCols<n>().transpose() * t;
-    stage.L.template topLeftCorner<n, n>().template triangularView<Eigen::Lower>().solveInPlace(h);
+    core::SolveLower<n, 1>(stage.L, h);
     p.noalias() -= stage.Y.template topRows<n>().transpose() * h;
     stage.h.template head<n>() = h;
   }
@@ -225,10 +211,7 @@ void RiccatiIpm::ForwardStage(const OcpStage& data, Stage& stage, Vec12& x) cons
   if constexpr (kFeet > 0) {
     Eigen::Matrix<double, n, 1> u = -stage.h.template head<n>();
     u.noalias() -= stage.Y.template topRows<n>() * x;
-    stage.L.template topLeftCorner<n, n>()
-        .transpose()
-        .template triangularView<Eigen::Upper>()
-        .solveInPlace(u);
+    core::SolveLowerTransposed<n>(stage.L, u);
     next.noalias() += stage.B.template leftCols<n>() * u;
     stage.u_new.template head<n>() = u;
   }

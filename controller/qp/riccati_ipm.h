@@ -42,9 +42,9 @@ class RiccatiIpm {
     Vec12 R, r;                       // of the stance feet
     Vec12 u, u_new, r_tilde;
     Eigen::Matrix<double, kRows, 4> slack, lambda, weight, d_slack,
-        d_lambda;  // one column per foot
-    Mat12 L;       // Cholesky factor of the input Hessian
-    Mat12 Y;       // L⁻¹ BᵀPA
+        d_lambda;                                      // one column per foot
+    Mat12 L;                                           // Cholesky factor of the input Hessian
+    Eigen::Matrix<double, 12, 12, Eigen::RowMajor> Y;  // L⁻¹ BᵀPA
     Vec12 h, Pb;
   };
 

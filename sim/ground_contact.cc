@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/foot_contact.h"
+#include "sim/ground_contact.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <BulletCollision/CollisionDispatch/btActivatingCollisionAlgorithm.h>
 #include <BulletCollision/CollisionDispatch/btCollisionCreateFunc.h>
 #include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
+#include <BulletCollision/CollisionDispatch/btConvexConcaveCollisionAlgorithm.h>
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 
@@ -107,36 +110,123 @@ class SphereGroundAlgorithm : public btActivatingCollisionAlgorithm {
   const terrains::Heightfield& ground_;
 };
 
-class Factory : public btCollisionAlgorithmCreateFunc {
+/// Highest ground in square blocks of the grid, to see quickly that a body is well above it.
+class CeilingMap {
  public:
-  Factory(const terrains::Heightfield& ground, bool ground_first)
-      : ground_(ground), ground_first_(ground_first) {}
-  btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
-                                                 const btCollisionObjectWrapper* first,
-                                                 const btCollisionObjectWrapper* second) override {
-    void* memory = info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(SphereGroundAlgorithm));
-    return new (memory) SphereGroundAlgorithm(info, first, second, ground_first_, ground_);
+  explicit CeilingMap(const terrains::Heightfield& ground)
+      : blocks_((ground.nodes() + kBlock - 1) / kBlock),
+        block_m_(kBlock * ground.resolution_m()),
+        half_m_(ground.half_size_m()),
+        highest_m_(static_cast<std::size_t>(blocks_ * blocks_), ground.min_m()) {
+    for (int row = 0; row < ground.nodes(); ++row) {
+      for (int column = 0; column < ground.nodes(); ++column) {
+        // Nodes on a block's edge belong to the triangles of both neighbours.
+        for (const int r : {std::max(row - 1, 0), row}) {
+          for (const int c : {std::max(column - 1, 0), column}) {
+            double& highest = highest_m_[Index(r / kBlock, c / kBlock)];
+            highest = std::max(highest, ground.NodeHeight(column, row));
+          }
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] double HighestIn(const btVector3& low, const btVector3& high) const {
+    double highest = -1e30;
+    for (int r = Block(low.y()); r <= Block(high.y()); ++r) {
+      for (int c = Block(low.x()); c <= Block(high.x()); ++c) {
+        highest = std::max(highest, highest_m_[Index(r, c)]);
+      }
+    }
+    return highest;
   }
 
  private:
-  const terrains::Heightfield& ground_;
+  static constexpr int kBlock = 8;
+  [[nodiscard]] int Block(double coordinate_m) const {
+    return std::clamp(static_cast<int>((coordinate_m + half_m_) / block_m_), 0, blocks_ - 1);
+  }
+  [[nodiscard]] std::size_t Index(int row, int column) const {
+    return static_cast<std::size_t>(row * blocks_ + column);
+  }
+
+  int blocks_;
+  double block_m_, half_m_;
+  std::vector<double> highest_m_;
+};
+
+/// Bullet's convex-against-triangles test, skipped while the convex body is above everything below
+/// it.
+class BodyGroundAlgorithm : public btConvexConcaveCollisionAlgorithm {
+ public:
+  BodyGroundAlgorithm(const btCollisionAlgorithmConstructionInfo& info,
+                      const btCollisionObjectWrapper* first, const btCollisionObjectWrapper* second,
+                      bool ground_first, const CeilingMap& ceiling)
+      : btConvexConcaveCollisionAlgorithm(info, first, second, ground_first),
+        ground_first_(ground_first),
+        ceiling_(ceiling) {}
+
+  void processCollision(const btCollisionObjectWrapper* first,
+                        const btCollisionObjectWrapper* second, const btDispatcherInfo& info,
+                        btManifoldResult* result) override {
+    const auto* body = ground_first_ ? second : first;
+    btVector3 low, high;
+    body->getCollisionShape()->getAabb(body->getWorldTransform(), low, high);
+    if (low.z() > ceiling_.HighestIn(low, high) + gContactBreakingThreshold) {
+      clearCache();
+      return;
+    }
+    btConvexConcaveCollisionAlgorithm::processCollision(first, second, info, result);
+  }
+
+ private:
+  bool ground_first_;
+  const CeilingMap& ceiling_;
+};
+
+/// Makes algorithms of one kind; `Context` is the last argument of their constructor.
+template <class Algorithm, class Context>
+class Factory : public btCollisionAlgorithmCreateFunc {
+ public:
+  Factory(const Context& context, bool ground_first)
+      : context_(context), ground_first_(ground_first) {}
+  btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
+                                                 const btCollisionObjectWrapper* first,
+                                                 const btCollisionObjectWrapper* second) override {
+    void* memory = info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(Algorithm));
+    return new (memory) Algorithm(info, first, second, ground_first_, context_);
+  }
+
+ private:
+  const Context& context_;
   bool ground_first_;
 };
 
 }  // namespace
 
-struct FootContact::Impl {
-  Factory sphere_first, ground_first;
+struct GroundContact::Impl {
+  explicit Impl(const terrains::Heightfield& ground)
+      : ceiling(ground),
+        foot_first(ground, false),
+        ground_foot(ground, true),
+        body_first(ceiling, false),
+        ground_body(ceiling, true) {}
+  CeilingMap ceiling;
+  Factory<SphereGroundAlgorithm, terrains::Heightfield> foot_first, ground_foot;
+  Factory<BodyGroundAlgorithm, CeilingMap> body_first, ground_body;
 };
 
-FootContact::FootContact(btCollisionDispatcher& dispatcher, const terrains::Heightfield& ground)
-    : impl_(new Impl{{ground, false}, {ground, true}}) {
-  dispatcher.registerCollisionCreateFunc(SPHERE_SHAPE_PROXYTYPE, TERRAIN_SHAPE_PROXYTYPE,
-                                         &impl_->sphere_first);
-  dispatcher.registerCollisionCreateFunc(TERRAIN_SHAPE_PROXYTYPE, SPHERE_SHAPE_PROXYTYPE,
-                                         &impl_->ground_first);
+GroundContact::GroundContact(btCollisionDispatcher& dispatcher, const terrains::Heightfield& ground)
+    : impl_(std::make_unique<Impl>(ground)) {
+  constexpr int kGround = TERRAIN_SHAPE_PROXYTYPE;
+  dispatcher.registerCollisionCreateFunc(SPHERE_SHAPE_PROXYTYPE, kGround, &impl_->foot_first);
+  dispatcher.registerCollisionCreateFunc(kGround, SPHERE_SHAPE_PROXYTYPE, &impl_->ground_foot);
+  for (const int shape : {BOX_SHAPE_PROXYTYPE, CAPSULE_SHAPE_PROXYTYPE}) {
+    dispatcher.registerCollisionCreateFunc(shape, kGround, &impl_->body_first);
+    dispatcher.registerCollisionCreateFunc(kGround, shape, &impl_->ground_body);
+  }
 }
 
-FootContact::~FootContact() = default;
+GroundContact::~GroundContact() = default;
 
 }  // namespace scoria::sim

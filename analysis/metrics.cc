@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "analysis/metrics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+namespace scoria::analysis {
+namespace {
+
+constexpr double kChord_s = 0.5;
+constexpr double kWindow_s = 5.0;
+constexpr double kSettle_s = 3.0;  // after the command changed
+constexpr double kSameCommand_mps =
+    0.05;                          // a follower's small corrections do not count as a change
+constexpr double kStride_s = 0.5;  // averaging time where the log names no period
+
+TimeQuantiles Quantiles(std::vector<double>& samples) {
+  TimeQuantiles q;
+  q.count = static_cast<int>(samples.size());
+  if (samples.empty()) return q;
+  const auto at = [&](double share) {
+    const auto rank = samples.begin() +
+                      static_cast<std::ptrdiff_t>(share * static_cast<double>(samples.size() - 1));
+    std::nth_element(samples.begin(), rank, samples.end());
+    return *rank;
+  };
+  q.median_s = at(0.5);
+  q.p99_s = at(0.99);
+  q.max_s = at(1.0);
+  return q;
+}
+
+double CommandSpeed(const core::LogRow& row) {
+  return std::hypot(row.cmd_v_x_mps, row.cmd_v_y_mps);
+}
+
+bool SameCommand(const core::LogRow& a, const core::LogRow& b) {
+  return std::abs(a.cmd_v_x_mps - b.cmd_v_x_mps) < kSameCommand_mps &&
+         std::abs(a.cmd_v_y_mps - b.cmd_v_y_mps) < kSameCommand_mps &&
+         (a.cmd_w_z_radps == 0.0) == (b.cmd_w_z_radps == 0.0);
+}
+
+bool IsStop(const core::LogRow& row) {
+  return row.cmd_v_x_mps == 0.0 && row.cmd_v_y_mps == 0.0 && row.cmd_w_z_radps == 0.0;
+}
+
+}  // namespace
+
+MetricsAccumulator::Mark MetricsAccumulator::MarkOf(const core::LogRow& row) {
+  return {
+      row.time_s, row.p_WB_m[0], row.p_WB_m[1], {row.mech_abs_J, row.mech_pos_J, row.electrical_J}};
+}
+
+void MetricsAccumulator::StartStretch(const core::LogRow& row) {
+  in_stretch_ = true;
+  segment_ = row.segment;
+  chord_ = window_ = MarkOf(row);
+  window_distance_m_ = 0.0;
+  command_since_s_ = row.time_s;
+  stride_.clear();
+  stride_head_ = 0;
+  standing_ = false;
+  previous_ = row;
+}
+
+void MetricsAccumulator::AddRow(const core::LogRow& row, const core::SolveTimes& times) {
+  metrics_.duration_s = row.time_s;
+  metrics_.mass_kg = row.total_mass_kg;
+  if (times.mpc_s > 0.0) mpc_s_.push_back(times.mpc_s);
+  if (times.wbc_s > 0.0) wbc_s_.push_back(times.wbc_s);
+  if (!row.operating || row.fallen) {
+    in_stretch_ = false;
+    return;
+  }
+  for (std::size_t leg = 0; leg < 4; ++leg) {
+    const double* f = &row.f_F_W_N[3 * leg];
+    metrics_.peak_foot_force_N =
+        std::max(metrics_.peak_foot_force_N, std::sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]));
+  }
+  if (!in_stretch_ || row.segment != segment_) StartStretch(row);
+  AddWalking(row);
+  AddWindow(row);
+  AddTracking(row);
+  previous_ = row;
+}
+
+void MetricsAccumulator::AddWalking(const core::LogRow& row) {
+  metrics_.walking_s += row.time_s - previous_.time_s;
+  metrics_.energy.mech_abs_J += row.mech_abs_J - previous_.mech_abs_J;
+  metrics_.energy.mech_pos_J += row.mech_pos_J - previous_.mech_pos_J;
+  metrics_.energy.electrical_J += row.electrical_J - previous_.electrical_J;
+  if (row.time_s - chord_.time_s < kChord_s - 1e-9) return;
+  const double chord_m = std::hypot(row.p_WB_m[0] - chord_.x_m, row.p_WB_m[1] - chord_.y_m);
+  metrics_.distance_m += chord_m;
+  window_distance_m_ += chord_m;
+  chord_ = MarkOf(row);
+}
+
+/// One point of cost of transport against speed for every five steady seconds.
+void MetricsAccumulator::AddWindow(const core::LogRow& row) {
+  const bool changed = std::abs(CommandSpeed(row) - CommandSpeed(previous_)) > kSameCommand_mps;
+  const bool settling = row.time_s - command_since_s_ < kSettle_s;
+  if (changed || settling || CommandSpeed(row) == 0.0) {
+    window_ = MarkOf(row);
+    window_distance_m_ = 0.0;
+    return;
+  }
+  const double elapsed_s = row.time_s - window_.time_s;
+  if (elapsed_s < kWindow_s - 1e-9) return;
+  if (window_distance_m_ > 0.1) {
+    const double work_J = metrics_.mass_kg * gravity_mps2_ * window_distance_m_;
+    metrics_.windows.push_back({window_distance_m_ / elapsed_s, CommandSpeed(row),
+                                (row.mech_abs_J - window_.energy.mech_abs_J) / work_J,
+                                (row.mech_pos_J - window_.energy.mech_pos_J) / work_J,
+                                (row.electrical_J - window_.energy.electrical_J) / work_J});
+  }
+  window_ = MarkOf(row);
+  window_distance_m_ = 0.0;
+}
+
+void MetricsAccumulator::AddTracking(const core::LogRow& row) {
+  if (!SameCommand(row, previous_)) {
+    command_since_s_ = row.time_s;
+    stride_.clear();
+    stride_head_ = 0;
+    standing_ = false;
+  }
+  if (row.time_s - command_since_s_ < kSettle_s) return;
+  TrackingErrors& t = metrics_.tracking;
+  if (IsStop(row)) {
+    if (!standing_) {
+      standing_ = true;
+      stand_x_m_ = row.p_WB_m[0];
+      stand_y_m_ = row.p_WB_m[1];
+    }
+    t.drift_m =
+        std::max(t.drift_m, std::hypot(row.p_WB_m[0] - stand_x_m_, row.p_WB_m[1] - stand_y_m_));
+  }
+  const double yaw = row.rpy_rad[2], c = std::cos(yaw), s = std::sin(yaw);
+  const double v_x = c * row.v_WB_mps[0] + s * row.v_WB_mps[1];
+  const double v_y = -s * row.v_WB_mps[0] + c * row.v_WB_mps[1];
+  t.velocity_x_mps += v_x;
+  t.velocity_y_mps += v_y;
+  t.yaw_rate_radps += row.w_WB_radps[2];
+  t.command_x_mps += row.cmd_v_x_mps;
+  t.command_y_mps += row.cmd_v_y_mps;
+  t.command_yaw_radps += row.cmd_w_z_radps;
+  const auto squared = [](double x) { return x * x; };
+  sum_height_ += squared(row.com_z_m - row.ref_p_WC_m[2]);
+  sum_roll_ += squared(row.rpy_rad[0] - row.ref_rpy_rad[0]);
+  sum_pitch_ += squared(row.rpy_rad[1] - row.ref_rpy_rad[1]);
+  t.samples_s += row.time_s - previous_.time_s;
+  ++rows_;
+
+  stride_.push_back({row.time_s, v_x - row.cmd_v_x_mps, v_y - row.cmd_v_y_mps});
+  const double stride_s = row.period_s > 0.0 ? row.period_s : kStride_s;
+  bool full = false;
+  while (row.time_s - stride_[stride_head_][0] > stride_s - 1e-9) {
+    ++stride_head_;
+    full = true;
+  }
+  if (!full) return;
+  double e_x = 0.0, e_y = 0.0;
+  const auto n = static_cast<double>(stride_.size() - stride_head_);
+  for (std::size_t i = stride_head_; i < stride_.size(); ++i) {
+    e_x += stride_[i][1] / n;
+    e_y += stride_[i][2] / n;
+  }
+  sum_velocity_ += e_x * e_x + e_y * e_y;
+  ++stride_rows_;
+  if (stride_head_ > 4096) {
+    stride_.erase(stride_.begin(), stride_.begin() + static_cast<std::ptrdiff_t>(stride_head_));
+    stride_head_ = 0;
+  }
+}
+
+EpisodeMetrics MetricsAccumulator::Finish() {
+  EpisodeMetrics m = metrics_;
+  const double work_J = m.mass_kg * gravity_mps2_ * m.distance_m;
+  if (work_J > 0.0) {
+    m.cot_mech_abs = m.energy.mech_abs_J / work_J;
+    m.cot_mech_pos = m.energy.mech_pos_J / work_J;
+    m.cot_electrical = m.energy.electrical_J / work_J;
+  }
+  TrackingErrors& t = m.tracking;
+  if (rows_ > 0) {
+    const auto n = static_cast<double>(rows_);
+    for (double* mean : {&t.velocity_x_mps, &t.velocity_y_mps, &t.yaw_rate_radps, &t.command_x_mps,
+                         &t.command_y_mps, &t.command_yaw_radps}) {
+      *mean /= n;
+    }
+    t.height_rmse_m = std::sqrt(sum_height_ / n);
+    t.roll_rmse_rad = std::sqrt(sum_roll_ / n);
+    t.pitch_rmse_rad = std::sqrt(sum_pitch_ / n);
+  }
+  if (stride_rows_ > 0)
+    t.velocity_rmse_mps = std::sqrt(sum_velocity_ / static_cast<double>(stride_rows_));
+  m.mpc = Quantiles(mpc_s_);
+  m.wbc = Quantiles(wbc_s_);
+  return m;
+}
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Energy, mech_abs_J, mech_pos_J, electrical_J)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SpeedWindow, v_mps, command_mps, cot_mech_abs, cot_mech_pos,
+                                   cot_electrical)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TrackingErrors, samples_s, velocity_rmse_mps, velocity_x_mps,
+                                   velocity_y_mps, yaw_rate_radps, command_x_mps, command_y_mps,
+                                   command_yaw_radps, height_rmse_m, roll_rmse_rad, pitch_rmse_rad,
+                                   drift_m)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TimeQuantiles, median_s, p99_s, max_s, count)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FallEvent, time_s, cause)
+
+void to_json(nlohmann::json& j, const EpisodeMetrics& m) {
+  j = {{"duration_s", m.duration_s},
+       {"walking_s", m.walking_s},
+       {"distance_m", m.distance_m},
+       {"mass_kg", m.mass_kg},
+       {"energy", m.energy},
+       {"cot_mech_abs", m.cot_mech_abs},
+       {"cot_mech_pos", m.cot_mech_pos},
+       {"cot_electrical", m.cot_electrical},
+       {"windows", m.windows},
+       {"tracking", m.tracking},
+       {"mpc", m.mpc},
+       {"wbc", m.wbc},
+       {"falls", m.falls},
+       {"peak_foot_force_N", m.peak_foot_force_N}};
+}
+
+void from_json(const nlohmann::json& j, EpisodeMetrics& m) {
+  j.at("duration_s").get_to(m.duration_s);
+  j.at("walking_s").get_to(m.walking_s);
+  j.at("distance_m").get_to(m.distance_m);
+  j.at("mass_kg").get_to(m.mass_kg);
+  j.at("energy").get_to(m.energy);
+  j.at("cot_mech_abs").get_to(m.cot_mech_abs);
+  j.at("cot_mech_pos").get_to(m.cot_mech_pos);
+  j.at("cot_electrical").get_to(m.cot_electrical);
+  j.at("windows").get_to(m.windows);
+  j.at("tracking").get_to(m.tracking);
+  j.at("mpc").get_to(m.mpc);
+  j.at("wbc").get_to(m.wbc);
+  j.at("falls").get_to(m.falls);
+  j.at("peak_foot_force_N").get_to(m.peak_foot_force_N);
+}
+
+}  // namespace scoria::analysis

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "core/log/row.h"
+
+namespace scoria::analysis {
+
+/// Energy drawn over a stretch of walking.
+struct Energy {
+  double mech_abs_J = 0.0, mech_pos_J = 0.0, electrical_J = 0.0;
+};
+
+/// Cost of transport of one steady stretch: energy over m g d.
+struct SpeedWindow {
+  double v_mps = 0.0;  // distance over time
+  double command_mps = 0.0;
+  double cot_mech_abs = 0.0, cot_mech_pos = 0.0, cot_electrical = 0.0;
+};
+
+/// Root mean squares of tracking errors over steady walking (three seconds after the command
+/// changed, or later).
+struct TrackingErrors {
+  double samples_s = 0.0;
+  double velocity_rmse_mps = 0.0;  // horizontal, averaged over a stride first
+  double velocity_x_mps = 0.0, velocity_y_mps = 0.0, yaw_rate_radps = 0.0;  // means in H
+  double command_x_mps = 0.0, command_y_mps = 0.0, command_yaw_radps = 0.0;
+  double height_rmse_m = 0.0;                        // COM against the reference
+  double roll_rmse_rad = 0.0, pitch_rmse_rad = 0.0;  // against the reference
+  double drift_m = 0.0;                              // largest distance from where standing began
+};
+
+struct TimeQuantiles {
+  double median_s = 0.0, p99_s = 0.0, max_s = 0.0;
+  int count = 0;
+};
+
+/// A fall and when it happened.
+struct FallEvent {
+  double time_s = 0.0;
+  std::string cause;
+};
+
+/// Everything reported of one episode. Definitions: docs/METRICS.md.
+struct EpisodeMetrics {
+  double duration_s = 0.0, walking_s = 0.0;
+  double distance_m = 0.0;  // half-second chords of the trunk's path, placements excluded
+  double mass_kg = 0.0;
+  Energy energy;  // while walking
+  double cot_mech_abs = 0.0, cot_mech_pos = 0.0, cot_electrical = 0.0;
+  std::vector<SpeedWindow> windows;
+  TrackingErrors tracking;
+  TimeQuantiles mpc, wbc;
+  double peak_foot_force_N = 0.0;
+  std::vector<FallEvent> falls;
+};
+
+/// Accumulates rows as they come, from the runner or from a log.
+class MetricsAccumulator {
+ public:
+  explicit MetricsAccumulator(double gravity_mps2) : gravity_mps2_(gravity_mps2) {}
+  void AddRow(const core::LogRow& row, const core::SolveTimes& times);
+  void AddFall(double time_s, const std::string& cause) {
+    metrics_.falls.push_back({time_s, cause});
+  }
+  [[nodiscard]] EpisodeMetrics Finish();
+
+ private:
+  struct Mark {
+    double time_s = 0.0, x_m = 0.0, y_m = 0.0;
+    Energy energy;
+  };
+  [[nodiscard]] static Mark MarkOf(const core::LogRow& row);
+  void AddWalking(const core::LogRow& row);
+  void AddWindow(const core::LogRow& row);
+  void AddTracking(const core::LogRow& row);
+  void StartStretch(const core::LogRow& row);
+
+  double gravity_mps2_;
+  EpisodeMetrics metrics_;
+  bool in_stretch_ = false;
+  std::uint32_t segment_ = 0;
+  core::LogRow previous_;
+  Mark chord_, window_;
+  double window_distance_m_ = 0.0;
+  // Tracking.
+  double command_since_s_ = 0.0;
+  double stand_x_m_ = 0.0, stand_y_m_ = 0.0;
+  bool standing_ = false;
+  std::vector<std::array<double, 3>> stride_;  // time, error x, error y of the last stride
+  std::size_t stride_head_ = 0;
+  double sum_velocity_ = 0.0, sum_height_ = 0.0, sum_roll_ = 0.0, sum_pitch_ = 0.0;
+  long rows_ = 0, stride_rows_ = 0;
+  std::vector<double> mpc_s_, wbc_s_;
+};
+
+void to_json(nlohmann::json& j, const EpisodeMetrics& m);
+void from_json(const nlohmann::json& j, EpisodeMetrics& m);
+
+}  // namespace scoria::analysis

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/commands.h"
+
+#include <atomic>
+#include <csignal>
+#include <fstream>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/episode_files.h"
+#include "app/progress.h"
+#include "app/scenario.h"
+#include "app/verify.h"
+
+namespace scoria::app {
+namespace {
+
+std::atomic<bool> g_interrupted = false;  // the only state that a signal handler may touch
+
+void CatchInterrupts() {
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { g_interrupted = true; });
+}
+
+void PrintSummary(const Scenario& scenario, const EpisodeReport& report,
+                  const std::string& folder) {
+  const EpisodeResult& r = report.result;
+  const analysis::EpisodeMetrics& m = report.metrics;
+  const analysis::TrackingErrors& t = m.tracking;
+  constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+  fmt::print("{}: {} after {:.1f} s, {:.1f} m walked, {} falls, {} times stuck\n", scenario.name,
+             core::EnumName(r.end), r.duration_s, m.distance_m, r.falls, r.stuck);
+  fmt::print(
+      "  speed         {:.3f} {:.3f} m/s, {:.3f} rad/s for a command of {:.3f} {:.3f} m/s, {:.3f} "
+      "rad/s\n",
+      t.velocity_x_mps, t.velocity_y_mps, t.yaw_rate_radps, t.command_x_mps, t.command_y_mps,
+      t.command_yaw_radps);
+  fmt::print(
+      "  RMSE          velocity {:.4f} m/s (stride mean), height {:.1f} mm, roll {:.2f} deg, pitch "
+      "{:.2f} deg\n",
+      t.velocity_rmse_mps, t.height_rmse_m * 1e3, t.roll_rmse_rad * kDegrees,
+      t.pitch_rmse_rad * kDegrees);
+  if (t.drift_m > 0.0) fmt::print("  standing      drift {:.2f} mm\n", t.drift_m * 1e3);
+  fmt::print("  cost of transport  mech_abs {:.3f}, mech_pos {:.3f}, electrical {:.3f}\n",
+             m.cot_mech_abs, m.cot_mech_pos, m.cot_electrical);
+  fmt::print("  solve times   MPC {:.0f} us (p99 {:.0f}), WBC {:.1f} us (p99 {:.1f})\n",
+             m.mpc.median_s * 1e6, m.mpc.p99_s * 1e6, m.wbc.median_s * 1e6, m.wbc.p99_s * 1e6);
+  fmt::print("  real time     {:.1f}x (physics {:.1f} us, controller {:.1f} us per step)\n",
+             report.real_time_factor, r.physics_s / r.duration_s * scenario.physics.step_s * 1e6,
+             r.controller_s / r.duration_s * scenario.physics.step_s * 1e6);
+  fmt::print("  state hash    {:016x}\n  files         {}\n", r.state_hash, folder);
+}
+
+void AddRun(CLI::App& app, int& exit_code) {
+  struct Options {
+    std::string scenario, out;
+    std::vector<std::string> set;
+    bool json = false, quiet = false;
+  };
+  auto o = std::make_shared<Options>();
+  CLI::App* run = app.add_subcommand("run", "walk one scenario");
+  run->add_option("scenario", o->scenario, "scenario YAML")->required();
+  run->add_option("--set", o->set, "override a key, as operator.speed_mps=0.5");
+  run->add_option("--out", o->out, "folder for log and result (default out/NAME)");
+  run->add_flag("--json", o->json, "print result.json instead of a summary");
+  run->add_flag("--quiet", o->quiet, "print nothing");
+  run->callback([o, &exit_code] {
+    const Scenario scenario = LoadScenario(o->scenario, o->set);
+    CatchInterrupts();
+    RunOptions options;
+    options.folder = o->out.empty() ? std::filesystem::path("out") / scenario.name
+                                    : std::filesystem::path(o->out);
+    options.interrupted = &g_interrupted;
+    EpisodeReport report;
+    {
+      ProgressBar bar(scenario.name);
+      options.on_progress = [&](double time_s, int falls) {
+        bar.Update(time_s / scenario.duration_s, fmt::format("{:.0f} s, {} falls", time_s, falls));
+      };
+      report = RunToFolder(scenario, options);
+    }
+    if (o->json) {
+      std::ifstream in(options.folder / "result.json");
+      fmt::print("{}", std::string(std::istreambuf_iterator<char>(in), {}));
+    } else if (!o->quiet) {
+      PrintSummary(scenario, report, options.folder.string());
+    }
+    exit_code = report.result.end == EpisodeEnd::kInterrupted ? kStopped : kOk;
+  });
+}
+
+void AddVerify(CLI::App& app, int& exit_code) {
+  auto log = std::make_shared<std::string>();
+  CLI::App* verify = app.add_subcommand("verify", "re-run a log and compare it bit for bit");
+  verify->add_option("log", *log, "MCAP log that scoria wrote")->required();
+  verify->callback([log, &exit_code] {
+    const VerifyResult result = VerifyLog(*log);
+    if (!result.file_problem.empty()) fmt::print("{}\n", result.file_problem);
+    if (result.identical) {
+      fmt::print("identical: {} messages\n", result.messages);
+    } else {
+      fmt::print("first difference after {} equal messages: {}\n",
+                 result.messages > 0 ? result.messages - 1 : 0, result.difference);
+    }
+    exit_code = result.identical ? kOk : kFailed;
+  });
+}
+
+}  // namespace
+
+void AddCommands(CLI::App& app, int& exit_code) {
+  AddRun(app, exit_code);
+  AddVerify(app, exit_code);
+}
+
+}  // namespace scoria::app

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/episode_files.h"
+
+#include <fstream>
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+#include "app/version.h"
+#include "terrains/generator.h"
+
+namespace scoria::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+nlohmann::json TerrainJson(const terrains::TerrainStatistics& s) {
+  return {{"nu_10cm_m", s.nu_10cm_m},
+          {"nu_25cm_m", s.nu_25cm_m},
+          {"nu_1m_m", s.nu_1m_m},
+          {"hurst", s.hurst},
+          {"slope_mean_rad", s.slope_mean_rad},
+          {"slope_95_rad", s.slope_95_rad}};
+}
+
+void WriteText(const fs::path& path, const std::string& text) {
+  std::ofstream out(path);
+  out << text;
+  if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot write", path.string()));
+}
+
+}  // namespace
+
+EpisodeReport RunToFolder(const Scenario& scenario, const RunOptions& options) {
+  const core::RobotDescription robot = core::LoadRobot(scenario.robot);
+  fs::create_directories(options.folder);
+  WriteText(options.folder / "scenario.yaml", EffectiveYaml(scenario));
+  const terrains::Heightfield ground =
+      terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);
+  const nlohmann::json terrain = TerrainJson(terrains::MeasureTerrain(ground, scenario.terrain));
+
+  std::optional<FileSink> file;
+  if (scenario.log.keep != KeepLog::kMetrics) {
+    file.emplace(options.folder / "log.mcap", scenario, robot.urdf_text,
+                 core::McapMetadata{{"version", kVersion}, {"terrain", terrain.dump()}});
+  }
+  analysis::MetricsAccumulator accumulator(scenario.gravity_mps2);
+  int falls = 0;
+  EpisodeSinks sinks;
+  sinks.messages = file ? &*file : nullptr;
+  sinks.interrupted = options.interrupted;
+  sinks.on_row = [&](const core::LogRow& row, const core::SolveTimes& times) {
+    accumulator.AddRow(row, times);
+  };
+  sinks.on_event = [&](double time_s, const std::string& kind, const std::string& detail) {
+    if (kind == "fall") {
+      ++falls;
+      accumulator.AddFall(time_s, detail);
+    }
+    if (options.on_event) options.on_event(time_s, kind, detail);
+  };
+  if (options.on_progress)
+    sinks.on_progress = [&](double time_s) { options.on_progress(time_s, falls); };
+
+  EpisodeReport report;
+  report.result = RunEpisode(scenario, robot, ground, sinks);
+  report.metrics = accumulator.Finish();
+  if (file) file->Close();
+  const EpisodeResult& r = report.result;
+  report.real_time_factor = r.duration_s / (r.physics_s + r.controller_s);
+
+  nlohmann::json json = {
+      {"scenario", scenario.name},
+      {"seed", scenario.seed},
+      {"version", kVersion},
+      {"end", core::EnumName(r.end)},
+      {"falls", r.falls},
+      {"stuck", r.stuck},
+      {"walked_m", r.walked_m},
+      {"state_hash", fmt::format("{:016x}", r.state_hash)},
+      {"counters",
+       {{"early_contacts", r.counters.early_contacts},
+        {"mpc_failures", r.counters.mpc_failures},
+        {"wbc_failures", r.counters.wbc_failures},
+        {"wbc_torque_drops", r.counters.wbc_torque_drops}}},
+      {"real_time_factor", report.real_time_factor},
+      {"physics_us_per_step", r.physics_s / r.duration_s * scenario.physics.step_s * 1e6},
+      {"controller_us_per_step", r.controller_s / r.duration_s * scenario.physics.step_s * 1e6},
+      {"terrain", terrain},
+      {"metrics", report.metrics}};
+  WriteText(options.folder / "result.json", json.dump(2) + "\n");
+  return report;
+}
+
+}  // namespace scoria::app

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+
+#include "analysis/metrics.h"
+#include "app/runner.h"
+
+namespace scoria::app {
+
+/// What an episode leaves in its folder: scenario.yaml (effective), log.mcap (unless only metrics
+/// are kept), result.json.
+struct EpisodeReport {
+  EpisodeResult result;
+  analysis::EpisodeMetrics metrics;
+  double real_time_factor = 0.0;  // simulated time over the wall time of controller and physics
+};
+
+struct RunOptions {
+  std::filesystem::path folder;
+  std::function<void(double time_s, int falls)> on_progress;
+  std::function<void(double time_s, const std::string& kind, const std::string& detail)> on_event;
+  const std::atomic<bool>* interrupted = nullptr;
+};
+
+/// Runs one scenario into a folder, which is created.
+/// Errors: core::ConfigError, std::runtime_error (files).
+EpisodeReport RunToFolder(const Scenario& scenario, const RunOptions& options);
+
+}  // namespace scoria::app

@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/record.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/math/so3.h"
+
+namespace scoria::app {
+namespace {
+
+namespace msg = core::msg;
+
+constexpr double kNominalBattery_V = 28.8;  // Go2's pack, for the current that the power implies
+constexpr double kHeartbeat_s = 0.5;
+
+/// The topics, in the order of RecordedTopics().
+enum TopicId {
+  kJointStates,
+  kImu,
+  kContactState,
+  kJointCmd,
+  kQuadState,
+  kGaitState,
+  kControlTarget,
+  kWbcTarget,
+  kSolveTime,
+  kWbcSolveTime,
+  kBattery,
+  kHeartbeat,
+  kRow,
+  kHash,
+  kEvent,
+};
+
+std::int64_t ToNanoseconds(double time_s) { return std::llround(time_s * 1e9); }
+
+msg::Header MakeHeader(double time_s, const char* frame) {
+  const std::int64_t ns = ToNanoseconds(time_s);
+  msg::Header header;
+  header.stamp.sec = static_cast<std::int32_t>(ns / 1'000'000'000);
+  header.stamp.nanosec = static_cast<std::uint32_t>(ns % 1'000'000'000);
+  header.frame_id = frame;
+  return header;
+}
+
+template <class V = msg::Vector3>
+V ToMessage(const Vec3& v) {
+  V out;
+  out.x = v.x();
+  out.y = v.y();
+  out.z = v.z();
+  return out;
+}
+
+msg::Quaternion ToMessage(const Mat3& R) {
+  const Quat q = Quat(R).normalized();
+  return {q.x(), q.y(), q.z(), q.w()};
+}
+
+template <class T>
+std::array<T, 4> ToArray(const LegArray<T>& v) {
+  std::array<T, 4> out{};
+  std::copy(v.begin(), v.end(), out.begin());
+  return out;
+}
+
+std::array<double, 3> ToArray(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+template <class Message>
+Topic MakeTopic(const char* name, bool reproducible = true) {
+  return {name, Message::kTypeName, core::SchemaWriter::SchemaOf<Message>(), reproducible,
+          [](std::span<const std::byte> bytes) {
+            auto message = core::DecodeCdr<Message>(bytes);
+            core::FieldLister lister;
+            message.Serialize(lister);
+            return lister.fields();
+          }};
+}
+
+msg::JointState MakeJointState(const StepRecord& r) {
+  msg::JointState m;
+  m.position = Flatten(r.sensors.q);
+  m.velocity = Flatten(r.sensors.qd);
+  m.effort = Flatten(r.sensors.tau_Nm);
+  return m;
+}
+
+msg::QuadState MakeQuadState(const StepRecord& r) {
+  const controller::StateEstimate& e = r.control.estimate;
+  msg::QuadState m;
+  m.header = MakeHeader(r.time_s, "world");
+  m.pose.pose.position = ToMessage<msg::Point>(e.state.p_WB);
+  m.pose.pose.orientation = ToMessage(e.state.R_WB);
+  m.twist.twist.linear = ToMessage(e.state.v_WB);
+  m.twist.twist.angular = ToMessage(e.state.w_WB);
+  m.acceleration.linear = ToMessage(r.truth.a_WB);
+  m.joint_state = MakeJointState(r);
+  m.foot_contact = ToArray(e.contact);
+  m.ground_contact_force = Flatten(r.truth.f_F_W);
+  m.belly_contact = r.truth.trunk_force_N > 0.0;
+  return m;
+}
+
+msg::WBCTarget MakeWbcTarget(const StepRecord& r) {
+  msg::WBCTarget m;
+  m.header = MakeHeader(r.time_s, "world");
+  const BodyReference::Stage& target = r.control.target;
+  m.pose.position = ToMessage<msg::Point>(target.p_WC);
+  m.pose.orientation = ToMessage(core::RotationFromRpy(target.rpy_rad));
+  m.twist.linear = ToMessage(target.v_WC);
+  m.twist.angular = ToMessage(target.w_WB);
+  for (const Leg leg : kLegs) {
+    const auto i = static_cast<std::size_t>(leg);
+    m.feet_contacts[i] = r.control.legs.InContact(leg);
+    m.feet_pos_targets[i] = ToMessage(r.control.feet[leg].p_WF);
+    m.feet_vel_targets[i] = ToMessage(r.control.feet[leg].v_WF);
+    m.feet_acc_targets[i] = ToMessage(r.control.feet[leg].a_WF);
+    m.feet_wrenches[i] = ToMessage(r.control.f_F_W[leg]);
+  }
+  return m;
+}
+
+}  // namespace
+
+const std::vector<Topic>& RecordedTopics() {
+  static const std::vector<Topic> kTopics = {
+      MakeTopic<msg::JointState>("/joint_states"),
+      MakeTopic<msg::Imu>("/imu_measurement"),
+      MakeTopic<msg::ContactState>("/contact_state"),
+      MakeTopic<msg::JointCmd>("/joint_cmd"),
+      MakeTopic<msg::QuadState>("/quad_state"),
+      MakeTopic<msg::GaitState>("/gait_state"),
+      MakeTopic<msg::QuadControlTarget>("/quad_control_target"),
+      MakeTopic<msg::WBCTarget>("/wbc_target"),
+      MakeTopic<msg::MPCDiagnostics>("/solve_time", false),
+      MakeTopic<msg::WBCReturn>("/wbc_solve_time", false),
+      MakeTopic<msg::BatteryState>("/battery_state"),
+      MakeTopic<msg::ControllerInfo>("/controller_heartbeat"),
+      MakeTopic<core::LogRow>("/scoria/row"),
+      MakeTopic<msg::StateHash>("/scoria/state_hash"),
+      MakeTopic<msg::Event>("/scoria/event"),
+  };
+  return kTopics;
+}
+
+core::LogRow MakeRow(const StepRecord& r) {
+  core::LogRow row;
+  const RobotState& s = r.truth.state;
+  row.step = r.step;
+  row.time_s = r.time_s;
+  row.p_WB_m = ToArray(s.p_WB);
+  row.v_WB_mps = ToArray(s.v_WB);
+  row.w_WB_radps = ToArray(s.w_WB);
+  row.rpy_rad = ToArray(core::RpyFromRotation(s.R_WB));
+  row.q_rad = Flatten(s.q);
+  row.qd_radps = Flatten(s.qd);
+  row.tau_Nm = Flatten(r.motor_tau_Nm);
+  row.p_WF_m = Flatten(r.truth.p_WF);
+  row.f_F_W_N = Flatten(r.truth.f_F_W);
+  row.trunk_force_N = r.truth.trunk_force_N;
+  row.ground_z_m = r.ground_z_m;
+  row.total_mass_kg = r.total_mass_kg;
+  row.mech_abs_J = r.energy.mech_abs_J;
+  row.mech_pos_J = r.energy.mech_pos_J;
+  row.electrical_J = r.energy.electrical_J;
+  row.cmd_v_x_mps = r.command.v_x_mps;
+  row.cmd_v_y_mps = r.command.v_y_mps;
+  row.cmd_w_z_radps = r.command.w_z_radps;
+  row.com_z_m = r.com_z_m;
+  const controller::ControlOutput& c = r.control;
+  row.ref_rpy_rad = ToArray(c.reference.rpy_rad);
+  row.ref_p_WC_m = ToArray(c.reference.p_WC);
+  row.ref_v_WC_mps = ToArray(c.reference.v_WC);
+  row.period_s = c.contacts.period_s;
+  row.duty = c.contacts.duty[Leg::kFL];
+  row.phase = ToArray(c.contacts.phase);
+  row.planned_stance = ToArray(c.contacts.stance);
+  row.contact = ToArray(c.estimate.contact);
+  LegArray<Vec3> targets = ZeroPerLeg();
+  for (const Leg leg : kLegs) {
+    row.leg_mode[static_cast<std::size_t>(leg)] = static_cast<std::uint8_t>(c.legs.mode[leg]);
+    targets[leg] = c.feet[leg].p_WF;
+  }
+  row.foot_target_m = Flatten(targets);
+  row.operating = c.operating;
+  row.fallen = r.fallen;
+  row.segment = r.segment;
+  return row;
+}
+
+Recorder::Recorder(MessageSink& sink, const Scenario& scenario)
+    : sink_(sink),
+      gait_sequencer_(std::holds_alternative<controller::AgsParams>(scenario.controller.gait) ? 1
+                                                                                              : 0),
+      slow_every_(
+          std::max(1, static_cast<int>(std::lround(kHeartbeat_s / scenario.physics.step_s)))) {}
+
+template <class Message>
+void Recorder::Write(const Topic& topic, double time_s, Message& message) {
+  core::EncodeCdr(message, buffer_);
+  sink_.Write(topic, ToNanoseconds(time_s), buffer_);
+}
+
+void Recorder::Record(const StepRecord& r, const core::LogRow& row) {
+  const std::vector<Topic>& topics = RecordedTopics();
+  const double t = r.time_s;
+
+  msg::JointState joints = MakeJointState(r);
+  joints.header = MakeHeader(t, "");
+  Write(topics[kJointStates], t, joints);
+
+  msg::Imu imu;
+  imu.header = MakeHeader(t, "imu_frame");
+  imu.orientation = ToMessage(r.truth.state.R_WB);
+  imu.angular_velocity = ToMessage(r.sensors.w_WS_S);
+  imu.linear_acceleration = ToMessage(r.sensors.a_WS_S);
+  Write(topics[kImu], t, imu);
+
+  msg::ContactState contact;
+  contact.header = MakeHeader(t, "");
+  contact.ground_contact_force = ToArray(r.sensors.foot_force_N);
+  Write(topics[kContactState], t, contact);
+
+  msg::JointCmd command;
+  command.header = MakeHeader(t, "");
+  command.position = Flatten(r.control.command.q);
+  command.velocity = Flatten(r.control.command.qd);
+  command.effort = Flatten(r.control.command.tau_Nm);
+  command.kp = Flatten(r.control.command.kp_Nm_per_rad);
+  command.kd = Flatten(r.control.command.kd_Nms_per_rad);
+  Write(topics[kJointCmd], t, command);
+
+  msg::QuadState state = MakeQuadState(r);
+  Write(topics[kQuadState], t, state);
+
+  if (r.control.wbc_updated) {
+    msg::WBCTarget target = MakeWbcTarget(r);
+    Write(topics[kWbcTarget], t, target);
+    msg::WBCReturn wbc;
+    wbc.header = MakeHeader(t, "");
+    wbc.success = controller::IsUsable(r.control.wbc_status);
+    wbc.total_time = wbc.qp_solve_time = r.control.wbc_solve_s;
+    Write(topics[kWbcSolveTime], t, wbc);
+  }
+  if (r.control.mpc_updated) {
+    msg::GaitState gait;
+    gait.period = r.control.contacts.period_s;
+    gait.duty_factor = ToArray(r.control.contacts.duty);
+    gait.phase_offset = ToArray(r.control.contacts.offset);
+    gait.contact = ToArray(r.control.contacts.stance);
+    gait.phase = ToArray(r.control.contacts.phase);
+    gait.gait_sequencer = gait_sequencer_;
+    Write(topics[kGaitState], t, gait);
+
+    msg::QuadControlTarget target;
+    target.body_x_dot = r.command.v_x_mps;
+    target.body_y_dot = r.command.v_y_mps;
+    target.hybrid_theta_dot = r.command.w_z_radps;
+    target.world_z = r.control.reference.p_WC.z() - r.control.ground_z_m;
+    target.pitch = r.command.pitch_rad;
+    target.roll = r.command.roll_rad;
+    Write(topics[kControlTarget], t, target);
+
+    msg::MPCDiagnostics mpc;
+    mpc.header = MakeHeader(t, "");
+    mpc.solve_time = mpc.acados_total_time = r.control.mpc_solve_s;
+    mpc.acados_num_iter = r.control.mpc_iterations;
+    mpc.acados_return = static_cast<std::int64_t>(r.control.mpc_status);
+    Write(topics[kSolveTime], t, mpc);
+
+    msg::BatteryState battery;
+    battery.voltage = static_cast<float>(kNominalBattery_V);
+    battery.current = static_cast<float>(r.energy.electrical_W / kNominalBattery_V);
+    Write(topics[kBattery], t, battery);
+  }
+  if (r.step % slow_every_ == 0) {
+    msg::ControllerInfo info;
+    info.header = MakeHeader(t, "");
+    info.num_early_contacts = r.counters.early_contacts;
+    info.num_mpc_solver_fail = r.counters.mpc_failures;
+    info.num_wbc_solver_fail = r.counters.wbc_failures;
+    info.keep_pose_active = r.control.contacts.standing;
+    Write(topics[kHeartbeat], t, info);
+  }
+  core::LogRow copy = row;
+  Write(topics[kRow], t, copy);
+}
+
+void Recorder::RecordEvent(std::int64_t step, double time_s, const std::string& kind,
+                           const std::string& detail) {
+  msg::Event event{step, kind, detail};
+  Write(RecordedTopics()[kEvent], time_s, event);
+  if (kind == "fall") sink_.MarkFall(ToNanoseconds(time_s));
+}
+
+void Recorder::RecordHash(std::int64_t step, double time_s, std::uint64_t hash) {
+  msg::StateHash message{step, hash};
+  Write(RecordedTopics()[kHash], time_s, message);
+}
+
+FileSink::FileSink(const std::filesystem::path& path, const Scenario& scenario,
+                   const std::string& urdf_text, const core::McapMetadata& extra)
+    : writer_(path), params_(scenario.log) {
+  core::McapMetadata metadata = extra;
+  metadata["scenario"] = EffectiveYaml(scenario);
+  metadata["urdf"] = urdf_text;
+  metadata["contact_force_frame"] = "W";
+  writer_.AddMetadata(kScenarioMetadata, metadata);
+  for (const Topic& topic : RecordedTopics()) {
+    channels_.push_back(writer_.AddChannel(topic.name, topic.type_name, topic.schema_text));
+  }
+}
+
+void FileSink::Write(const Topic& topic, std::int64_t time_ns, std::span<const std::byte> message) {
+  const std::uint16_t channel =
+      channels_[static_cast<std::size_t>(&topic - RecordedTopics().data())];
+  if (params_.keep == KeepLog::kFull || time_ns <= write_until_ns_) {
+    writer_.Write(channel, time_ns, message);
+    return;
+  }
+  held_.push_back({channel, time_ns, {message.begin(), message.end()}});
+  const std::int64_t oldest = time_ns - ToNanoseconds(params_.before_fall_s);
+  while (held_.front().time_ns < oldest) held_.pop_front();
+}
+
+void FileSink::MarkFall(std::int64_t time_ns) {
+  if (params_.keep != KeepLog::kFalls) return;
+  for (const Held& held : held_) writer_.Write(held.channel, held.time_ns, held.message);
+  held_.clear();
+  write_until_ns_ = time_ns + ToNanoseconds(params_.after_fall_s);
+}
+
+}  // namespace scoria::app

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/scenario.h"
+#include "controller/controller.h"
+#include "core/log/mcap.h"
+#include "core/log/messages.h"
+#include "core/log/row.h"
+#include "sim/actuation.h"
+
+namespace scoria::app {
+
+/// A topic of the log: what it holds and how to list a message's fields.
+struct Topic {
+  std::string name, type_name, schema_text;
+  bool reproducible = true;  // false where messages hold wall-clock times
+  std::vector<std::pair<std::string, std::string>> (*list_fields)(std::span<const std::byte>) =
+      nullptr;
+};
+
+/// Where the recorder's messages go.
+class MessageSink {
+ public:
+  virtual ~MessageSink() = default;
+  virtual void Write(const Topic& topic, std::int64_t time_ns,
+                     std::span<const std::byte> message) = 0;
+  /// Something happened that a log keeping only falls must show.
+  virtual void MarkFall(std::int64_t time_ns) = 0;
+};
+
+/// What the runner knows after one step; borrowed for the call.
+struct StepRecord {
+  std::int64_t step;
+  double time_s;
+  const sim::Truth& truth;
+  const SensorFrame& sensors;
+  const Command& command;
+  const controller::ControlOutput& control;
+  controller::ControllerCounters counters;
+  const sim::EnergyMeter& energy;
+  const LegArray<Vec3>& motor_tau_Nm;
+  double ground_z_m;
+  double total_mass_kg;
+  double com_z_m;
+  bool fallen;
+  std::uint32_t segment;
+};
+
+/// The row that analysis sees of a step.
+[[nodiscard]] core::LogRow MakeRow(const StepRecord& record);
+
+/// Turns steps into the log's messages: the reference framework's topics and ours.
+class Recorder {
+ public:
+  /// `sink` is borrowed.
+  Recorder(MessageSink& sink, const Scenario& scenario);
+  void Record(const StepRecord& record, const core::LogRow& row);
+  void RecordEvent(std::int64_t step, double time_s, const std::string& kind,
+                   const std::string& detail);
+  void RecordHash(std::int64_t step, double time_s, std::uint64_t hash);
+
+ private:
+  template <class Message>
+  void Write(const Topic& topic, double time_s, Message& message);
+
+  MessageSink& sink_;
+  std::uint8_t gait_sequencer_;
+  int slow_every_;  // steps between messages of the slow topics
+  core::Bytes buffer_;
+};
+
+/// Every topic that Recorder writes.
+[[nodiscard]] const std::vector<Topic>& RecordedTopics();
+
+/// Writes an MCAP log whose metadata lets it be re-run: effective scenario, URDF, versions, terrain
+/// statistics.
+class FileSink final : public MessageSink {
+ public:
+  FileSink(const std::filesystem::path& path, const Scenario& scenario,
+           const std::string& urdf_text, const core::McapMetadata& extra);
+  void Write(const Topic& topic, std::int64_t time_ns, std::span<const std::byte> message) override;
+  void MarkFall(std::int64_t time_ns) override;
+  void Close() { writer_.Close(); }
+
+ private:
+  struct Held {
+    std::uint16_t channel;
+    std::int64_t time_ns;
+    core::Bytes message;
+  };
+  core::McapWriter writer_;
+  LogParams params_;
+  std::vector<std::uint16_t> channels_;  // by topic
+  std::deque<Held> held_;                // the time before a possible fall
+  std::int64_t write_until_ns_ = -1;
+};
+
+/// Name of the metadata record that holds the scenario.
+inline constexpr const char* kScenarioMetadata = "scoria";
+
+}  // namespace scoria::app

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/runner.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "core/hash.h"
+#include "core/math/so3.h"
+#include "sim/sensors/sensors.h"
+
+namespace scoria::app {
+namespace {
+
+constexpr int kHashEvery = 100;  // physics steps
+using WallClock = std::chrono::steady_clock;
+
+double Seconds(WallClock::duration d) { return std::chrono::duration<double>(d).count(); }
+
+std::uint64_t HashState(const RobotState& s, std::uint64_t before) {
+  core::Hash64 hash;
+  const double seed[] = {static_cast<double>(before >> 32),
+                         static_cast<double>(before & 0xffffffffu)};
+  hash.Add(seed, 2);
+  hash.Add(s.p_WB.data(), 3);
+  hash.Add(s.R_WB.data(), 9);
+  hash.Add(s.v_WB.data(), 3);
+  hash.Add(s.w_WB.data(), 3);
+  hash.Add(Flatten(s.q).data(), kNumJoints);
+  hash.Add(Flatten(s.qd).data(), kNumJoints);
+  return hash.value();
+}
+
+bool IsFinite(const RobotState& s) {
+  return s.p_WB.allFinite() && s.R_WB.allFinite() && s.v_WB.allFinite() && s.w_WB.allFinite();
+}
+
+/// One episode in progress.
+class Episode {
+ public:
+  Episode(const Scenario& scenario, const core::RobotDescription& robot,
+          const terrains::Heightfield& ground, const EpisodeSinks& sinks)
+      : scenario_(scenario),
+        robot_(robot),
+        ground_(ground),
+        sinks_(sinks),
+        gravity_W_(0.0, 0.0, -scenario.gravity_mps2),
+        world_(robot, ground, scenario.physics, gravity_W_),
+        actuation_(robot),
+        sensors_(robot, gravity_W_, scenario.physics.step_s),
+        operator_(scenario.operation, ground),
+        fall_monitor_(scenario.fall, robot.config.nominal_height_m, scenario.physics.step_s),
+        model_(robot, scenario.gravity_mps2),
+        wbc_every_(
+            std::max(1, static_cast<int>(std::lround(
+                            1.0 / (scenario.controller.rates.wbc_Hz * scenario.physics.step_s))))),
+        give_truth_(controller::NeedsTruth(scenario.controller.estimator)) {
+    if (sinks.messages != nullptr) recorder_.emplace(*sinks.messages, scenario);
+    Place(operator_.start_W(), operator_.start_yaw_rad(), scenario.start == StartPose::kStanding);
+  }
+
+  EpisodeResult Run() {
+    const auto limit =
+        static_cast<std::int64_t>(std::lround(scenario_.duration_s / scenario_.physics.step_s));
+    result_.end = EpisodeEnd::kTimedOut;
+    if (std::holds_alternative<VelocityProgramme>(scenario_.operation))
+      result_.end = EpisodeEnd::kCompleted;
+    for (step_ = 0; step_ < limit; ++step_) {
+      if (sinks_.interrupted != nullptr && sinks_.interrupted->load()) {
+        result_.end = EpisodeEnd::kInterrupted;
+        break;
+      }
+      Step();
+      if (const auto end = CheckEnd()) {
+        result_.end = *end;
+        break;
+      }
+    }
+    result_.duration_s = time_s();
+    result_.counters = counters_so_far();
+    return result_;
+  }
+
+ private:
+  [[nodiscard]] double time_s() const {
+    return static_cast<double>(step_) * scenario_.physics.step_s;
+  }
+
+  /// Sensors, operator, controller, actuation, world.
+  void Step() {
+    const auto start = WallClock::now();
+    const double dt = scenario_.physics.step_s;
+    const SensorFrame z =
+        sensors_.Read(world_.truth(), actuation_.motor_tau_Nm(), step_, give_truth_);
+    const Command command = Commanded();
+    const controller::ControlOutput& control = controller_->Step(z, command);
+    const auto controlled = WallClock::now();
+    Record(z, command, control);
+    const auto recorded = WallClock::now();
+    world_.SetTrunkWrench(PushForce(), Vec3::Zero());
+    const RobotState& state = world_.truth().state;
+    world_.Step(actuation_.Update(control.command, state.q, state.qd, dt));
+    if (control.operating) operating_s_ += dt;
+    const auto moved = WallClock::now();
+    Watch(command);
+    result_.controller_s += Seconds(controlled - start);
+    result_.physics_s += Seconds(moved - recorded);
+  }
+
+  /// The operator's command; none while the robot lies, stands up or has just been placed.
+  [[nodiscard]] Command Commanded() {
+    const bool ready = operating_s_ >= scenario_.fall.stand_s && !fallen_;
+    if (!ready) return {};
+    walking_s_ += scenario_.physics.step_s;
+    return operator_.Update(world_.truth().state, walking_s_, scenario_.physics.step_s);
+  }
+
+  [[nodiscard]] Vec3 PushForce() const {
+    Vec3 f_W = Vec3::Zero();
+    for (const Push& push : scenario_.pushes) {
+      if (walking_s_ >= push.at_s && walking_s_ < push.at_s + push.duration_s)
+        f_W += push.force_W_N;
+    }
+    return f_W;
+  }
+
+  void Record(const SensorFrame& z, const Command& command,
+              const controller::ControlOutput& control) {
+    if (step_ % wbc_every_ == 0 && (sinks_.on_row || recorder_)) {
+      const sim::Truth& truth = world_.truth();
+      model_.Calc(truth.state, whole_body_);
+      const double ground_z = ground_.HeightAt(truth.state.p_WB.x(), truth.state.p_WB.y());
+      const StepRecord record{step_,
+                              time_s(),
+                              truth,
+                              z,
+                              command,
+                              control,
+                              counters_so_far(),
+                              actuation_.energy(),
+                              actuation_.motor_tau_Nm(),
+                              ground_z,
+                              whole_body_.mass_kg,
+                              whole_body_.p_WC.z(),
+                              fallen_,
+                              segment_};
+      const core::LogRow row = MakeRow(record);
+      const core::SolveTimes times{control.mpc_updated ? control.mpc_solve_s : 0.0,
+                                   control.wbc_updated ? control.wbc_solve_s : 0.0};
+      if (sinks_.on_row) sinks_.on_row(row, times);
+      if (recorder_) recorder_->Record(record, row);
+    }
+    if (step_ % kHashEvery == 0) {
+      result_.state_hash = HashState(world_.truth().state, result_.state_hash);
+      if (recorder_) recorder_->RecordHash(step_, time_s(), result_.state_hash);
+    }
+    constexpr int kProgressEvery = 250;
+    if (sinks_.on_progress && step_ % kProgressEvery == 0) sinks_.on_progress(time_s());
+  }
+
+  /// Falls, getting stuck, distance, and what the operator does about them.
+  void Watch(const Command& command) {
+    const sim::Truth& truth = world_.truth();
+    const Vec3& p_WB = truth.state.p_WB;
+    if (fallen_) {
+      lying_s_ += scenario_.physics.step_s;
+      if (lying_s_ >= scenario_.fall.lie_s) PutOnFeet();
+      return;
+    }
+    if (!control_in_charge()) return;
+    MeasureDistance(p_WB);
+    const FallCause cause = fall_monitor_.Update(truth, ground_.HeightAt(p_WB.x(), p_WB.y()));
+    if (cause != FallCause::kNone) {
+      fallen_ = true;
+      lying_s_ = 0.0;
+      ++result_.falls;
+      Announce("fall", fmt::format("{} at x {:.3f} m, y {:.3f} m", core::EnumName(cause), p_WB.x(),
+                                   p_WB.y()));
+    } else if (fall_monitor_.UpdateStuck(p_WB, !command.IsStop())) {
+      ++result_.stuck;
+      Announce("stuck", fmt::format("at x {:.3f} m, y {:.3f} m", p_WB.x(), p_WB.y()));
+      PutOnFeet();
+    }
+  }
+
+  [[nodiscard]] bool control_in_charge() const { return operating_s_ > 0.0; }
+
+  void MeasureDistance(const Vec3& p_WB) {
+    constexpr double kChord_s = 0.5;
+    if (!chord_start_) {
+      chord_start_ = p_WB.head<2>();
+      chord_s_ = 0.0;
+    }
+    chord_s_ += scenario_.physics.step_s;
+    if (chord_s_ < kChord_s) return;
+    result_.walked_m += (p_WB.head<2>() - *chord_start_).norm();
+    chord_start_ = p_WB.head<2>();
+    chord_s_ = 0.0;
+  }
+
+  /// As in the field: the robot is set on its feet where it fell, a little further if it has just
+  /// fallen there.
+  void PutOnFeet() {
+    constexpr double kSamePlace_m = 0.3, kFurther_m = 0.25;
+    Vec2 place = world_.truth().state.p_WB.head<2>();
+    const double heading = operator_.route().empty()
+                               ? core::RpyFromRotation(world_.truth().state.R_WB).z()
+                               : operator_.HeadingAt(place);
+    if (last_place_ && (*last_place_ - place).norm() < kSamePlace_m) {
+      place += kFurther_m * Vec2(std::cos(heading), std::sin(heading));
+    }
+    last_place_ = place;
+    const double margin_m = 1.0, edge_m = ground_.half_size_m() - margin_m;
+    place = place.cwiseMax(-edge_m).cwiseMin(edge_m);
+    Place(place, heading, true);
+    Announce("placed", fmt::format("at x {:.3f} m, y {:.3f} m", place.x(), place.y()));
+  }
+
+  /// Puts the robot down at rest, on its feet or folded, and starts a fresh controller.
+  void Place(const Vec2& p_W, double yaw_rad, bool standing) {
+    RobotState state;
+    state.R_WB = core::RotationZ(yaw_rad);
+    const core::RobotConfig& config = robot_.config;
+    state.q = standing ? controller::StandingPose(robot_, config.nominal_height_m)
+                       : LegArray<Vec3>(config.lying_pose_rad);
+    double clearance_m = 1e9;  // of the lowest foot over the ground if the trunk were at z = 0
+    for (const Leg leg : kLegs) {
+      const Vec3 p_BF_W =
+          state.R_WB * controller::CalcLegKinematics(robot_.legs[leg], state.q[leg]).p_BF;
+      const double ground = ground_.HeightAt(p_W.x() + p_BF_W.x(), p_W.y() + p_BF_W.y());
+      clearance_m = std::min(clearance_m, p_BF_W.z() - robot_.legs[leg].foot_radius_m - ground);
+    }
+    state.p_WB = {p_W.x(), p_W.y(), -clearance_m};
+    if (!standing) {
+      constexpr double kBelly_m = 0.07;  // the trunk rests on the ground before the folded feet do
+      state.p_WB.z() = std::max(state.p_WB.z(), ground_.HeightAt(p_W.x(), p_W.y()) + kBelly_m);
+    }
+    world_.Reset(state);
+    sensors_.Reset();
+    fall_monitor_.Reset();
+    if (controller_) Accumulate(controller_->counters());
+    controller_ = std::make_unique<controller::Controller>(
+        scenario_.controller, robot_, scenario_.gravity_mps2, scenario_.physics.step_s,
+        standing ? controller::Controller::Start::kStanding
+                 : controller::Controller::Start::kLying);
+    fallen_ = false;
+    operating_s_ = 0.0;
+    chord_start_.reset();
+    ++segment_;
+  }
+
+  void Accumulate(const controller::ControllerCounters& c) {
+    counters_.early_contacts += c.early_contacts;
+    counters_.mpc_failures += c.mpc_failures;
+    counters_.wbc_failures += c.wbc_failures;
+    counters_.wbc_torque_drops += c.wbc_torque_drops;
+  }
+
+  [[nodiscard]] controller::ControllerCounters counters_so_far() const {
+    controller::ControllerCounters sum = counters_;
+    const controller::ControllerCounters& now = controller_->counters();
+    sum.early_contacts += now.early_contacts;
+    sum.mpc_failures += now.mpc_failures;
+    sum.wbc_failures += now.wbc_failures;
+    sum.wbc_torque_drops += now.wbc_torque_drops;
+    return sum;
+  }
+
+  void Announce(const std::string& kind, const std::string& detail) {
+    if (sinks_.on_event) sinks_.on_event(time_s(), kind, detail);
+    if (recorder_) recorder_->RecordEvent(step_, time_s(), kind, detail);
+  }
+
+  [[nodiscard]] std::optional<EpisodeEnd> CheckEnd() const {
+    if (!IsFinite(world_.truth().state)) return EpisodeEnd::kNonFinite;
+    if (result_.falls > 0 && result_.falls >= scenario_.max_falls) return EpisodeEnd::kFallLimit;
+    const auto* route = std::get_if<RouteParams>(&scenario_.operation);
+    if (route != nullptr && result_.walked_m >= route->distance_m) return EpisodeEnd::kCompleted;
+    return std::nullopt;
+  }
+
+  const Scenario& scenario_;
+  const core::RobotDescription& robot_;
+  const terrains::Heightfield& ground_;
+  const EpisodeSinks& sinks_;
+  Vec3 gravity_W_;
+  sim::World world_;
+  sim::Actuation actuation_;
+  sim::Sensors sensors_;
+  Operator operator_;
+  FallMonitor fall_monitor_;
+  controller::WholeBodyModel model_;  // for the record: true COM
+  controller::WholeBody whole_body_;
+  int wbc_every_;
+  bool give_truth_;
+  std::optional<Recorder> recorder_;
+  std::unique_ptr<controller::Controller> controller_;
+  controller::ControllerCounters counters_;  // of controllers before the present one
+  EpisodeResult result_;
+  std::int64_t step_ = 0;
+  std::uint32_t segment_ = 0;
+  double operating_s_ = 0.0, walking_s_ = 0.0, lying_s_ = 0.0, chord_s_ = 0.0;
+  bool fallen_ = false;
+  std::optional<Vec2> chord_start_, last_place_;
+};
+
+}  // namespace
+
+EpisodeResult RunEpisode(const Scenario& scenario, const core::RobotDescription& robot,
+                         const terrains::Heightfield& ground, const EpisodeSinks& sinks) {
+  return std::make_unique<Episode>(scenario, robot, ground, sinks)->Run();
+}
+
+}  // namespace scoria::app

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/fall_monitor.h"
+#include "app/operator.h"
+#include "controller/controller.h"
+#include "core/robot/description.h"
+#include "sim/world.h"
+#include "terrains/params.h"
+
+namespace scoria::app {
+
+enum class StartPose { kLying, kStanding };
+constexpr std::array<std::pair<StartPose, std::string_view>, 2> EnumNames(StartPose) {
+  return {{{StartPose::kLying, "lying"}, {StartPose::kStanding, "standing"}}};
+}
+
+enum class KeepLog { kFull, kFalls, kMetrics };
+constexpr std::array<std::pair<KeepLog, std::string_view>, 3> EnumNames(KeepLog) {
+  return {{{KeepLog::kFull, "full"}, {KeepLog::kFalls, "falls"}, {KeepLog::kMetrics, "metrics"}}};
+}
+
+struct LogParams {
+  KeepLog keep = KeepLog::kFull;
+  double before_fall_s = 8.0, after_fall_s = 2.0;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Field("keep", keep, {.doc = "everything, the time around each fall, or nothing but metrics"});
+    a.Field("before_fall_s", before_fall_s, {.min = 0.0, .max = 600.0});
+    a.Field("after_fall_s", after_fall_s, {.min = 0.0, .max = 600.0});
+  }
+};
+
+/// A sideways or forward push on the trunk.
+struct Push {
+  double at_s = 0.0, duration_s = 0.1;
+  Vec3 force_W_N = Vec3::Zero();
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Required("at_s", at_s, {.min = 0.0, .doc = "since the robot stands"});
+    a.Field("duration_s", duration_s, {.min = 0.001, .max = 60.0});
+    a.Required("force_W_N", force_W_N,
+               {.doc = "x y z in the world, at the trunk's centre of mass"});
+  }
+};
+
+/// One experiment.
+struct Scenario {
+  std::string name;
+  std::uint64_t seed = 1;
+  double duration_s = 60.0;
+  core::RobotConfig robot;
+  terrains::TerrainParams terrain;
+  double gravity_mps2 = 9.81;
+  sim::PhysicsParams physics;
+  StartPose start = StartPose::kStanding;
+  OperatorParams operation = RouteParams{};
+  std::vector<Push> pushes;
+  controller::ControllerParams controller;
+  FallParams fall;
+  int max_falls = 1000;
+  LogParams log;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Required("name", name);
+    a.Field("seed", seed, {.doc = "master seed of every random stream"});
+    a.Field("duration_s", duration_s, {.min = 0.1, .max = 1e6, .doc = "time limit"});
+    a.Required("robot", robot, {.doc = "usually base: ../robots/NAME/NAME.yaml"});
+    a.Field("terrain", terrain, {.doc = "usually base: ../terrains/NAME.yaml"});
+    a.Field("gravity_mps2", gravity_mps2, {.min = 0.1, .max = 30.0});
+    a.Field("physics", physics);
+    a.Field("start", start);
+    a.Field("operator", operation);
+    a.Field("pushes", pushes);
+    a.Field("controller", controller);
+    a.Field("fall", fall);
+    a.Field("max_falls", max_falls, {.min = 0, .max = 1e6, .doc = "the episode ends at this many"});
+    a.Field("log", log);
+  }
+};
+
+/// Reads and checks a scenario file with command-line overrides "key.sub=value".
+/// Errors: core::ConfigError.
+[[nodiscard]] Scenario LoadScenario(const std::filesystem::path& file,
+                                    const std::vector<std::string>& overrides);
+
+/// The scenario with every default filled in, as YAML that LoadScenario reads back.
+[[nodiscard]] std::string EffectiveYaml(const Scenario& scenario);
+
+}  // namespace scoria::app

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/verify.h"
+
+#include <algorithm>
+#include <map>
+
+#include "app/record.h"
+#include "app/runner.h"
+#include "core/hash.h"
+#include "terrains/generator.h"
+
+namespace scoria::app {
+namespace {
+
+std::uint64_t HashBytes(std::span<const std::byte> bytes) {
+  core::Hash64 hash;
+  hash.Add({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  return hash.value();
+}
+
+struct Logged {
+  std::int64_t time_ns;
+  std::uint64_t hash;
+};
+
+/// The bytes of one message of the log.
+core::Bytes Fetch(const std::filesystem::path& log, const std::string& topic, std::size_t index) {
+  core::Bytes bytes;
+  std::size_t seen = 0;
+  core::McapReader(log).ForEachMessage([&](const core::McapReader::Message& m) {
+    if (m.channel.topic != topic || seen++ != index) return true;
+    bytes.assign(m.data.begin(), m.data.end());
+    return false;
+  });
+  return bytes;
+}
+
+/// Compares what the re-run writes with what the log holds.
+class CompareSink final : public MessageSink {
+ public:
+  CompareSink(const std::filesystem::path& log, double step_s) : log_(log), step_s_(step_s) {
+    problem_ = core::McapReader(log).ForEachMessage([&](const core::McapReader::Message& m) {
+      logged_[m.channel.topic].push_back({m.time_ns, HashBytes(m.data)});
+      return true;
+    });
+    for (const auto& [topic, messages] : logged_) {
+      for (const Logged& m : messages) last_ns_ = std::max(last_ns_, m.time_ns);
+    }
+  }
+
+  void Write(const Topic& topic, std::int64_t time_ns,
+             std::span<const std::byte> message) override {
+    if (!topic.reproducible || !difference_.empty()) return;
+    const auto found = logged_.find(topic.name);
+    if (found == logged_.end()) return;
+    std::size_t& next = next_[topic.name];
+    if (next >= found->second.size() || found->second[next].time_ns > time_ns)
+      return;  // not kept in the log
+    const Logged& logged = found->second[next];
+    if (logged.time_ns < time_ns) {
+      difference_ = fmt::format("{}: {}: the log has a message that the re-run does not make",
+                                At(logged.time_ns), topic.name);
+    } else if (logged.hash != HashBytes(message)) {
+      Explain(topic, time_ns, next, message);
+    }
+    ++next;
+    ++compared_;
+  }
+  void MarkFall(std::int64_t) override {}
+
+  [[nodiscard]] bool Finished(double time_s) const {
+    return !difference_.empty() || time_s * 1e9 > static_cast<double>(last_ns_) + 1e6;
+  }
+
+  [[nodiscard]] VerifyResult Result() {
+    for (const Topic& topic : RecordedTopics()) {
+      const auto found = logged_.find(topic.name);
+      if (!topic.reproducible || found == logged_.end() || !difference_.empty()) continue;
+      const std::size_t next = next_[topic.name];
+      if (next < found->second.size()) {
+        difference_ = fmt::format("{}: {}: the log has a message that the re-run does not make",
+                                  At(found->second[next].time_ns), topic.name);
+      }
+    }
+    if (compared_ == 0 && difference_.empty())
+      difference_ = "the log has no message that could be compared";
+    return {difference_.empty(), compared_, difference_, problem_};
+  }
+
+ private:
+  [[nodiscard]] std::string At(std::int64_t time_ns) const {
+    const double time_s = static_cast<double>(time_ns) * 1e-9;
+    return fmt::format("step {} ({:.3f} s)", std::lround(time_s / step_s_), time_s);
+  }
+
+  void Explain(const Topic& topic, std::int64_t time_ns, std::size_t index,
+               std::span<const std::byte> message) {
+    difference_ = fmt::format("{}: {}: differs", At(time_ns), topic.name);
+    const core::Bytes logged = Fetch(log_, topic.name, index);
+    try {
+      const auto theirs = topic.list_fields(logged), ours = topic.list_fields(message);
+      for (std::size_t i = 0; i < std::min(theirs.size(), ours.size()); ++i) {
+        if (theirs[i] == ours[i]) continue;
+        difference_ = fmt::format("{}: {}: {}: the log says {}, the re-run {}", At(time_ns),
+                                  topic.name, ours[i].first, theirs[i].second, ours[i].second);
+        return;
+      }
+    } catch (const std::exception& e) {
+      difference_ += fmt::format(" and cannot be decoded ({})", e.what());
+    }
+  }
+
+  std::filesystem::path log_;
+  double step_s_;
+  std::map<std::string, std::vector<Logged>> logged_;
+  std::map<std::string, std::size_t> next_;
+  std::int64_t last_ns_ = 0;
+  std::uint64_t compared_ = 0;
+  std::string difference_, problem_;
+};
+
+}  // namespace
+
+LogOrigin ReadLogOrigin(const std::filesystem::path& log) {
+  const auto all = core::McapReader(log).ReadMetadata();
+  const auto found = all.find(kScenarioMetadata);
+  if (found == all.end() || !found->second.contains("scenario") ||
+      !found->second.contains("urdf")) {
+    throw std::runtime_error(fmt::format(
+        "{}: holds no scenario; only logs that scoria wrote can be re-run or drawn", log.string()));
+  }
+  const core::ConfigNode node = core::ParseConfig(found->second.at("scenario"), log.string());
+  return {core::ReadConfig<Scenario>(node), found->second.at("urdf")};
+}
+
+VerifyResult VerifyLog(const std::filesystem::path& log) {
+  const LogOrigin origin = ReadLogOrigin(log);
+  const core::RobotDescription robot = core::MakeRobot(origin.scenario.robot, origin.urdf_text);
+  const terrains::Heightfield ground =
+      terrains::GenerateTerrain(origin.scenario.terrain, origin.scenario.seed, 0);
+  CompareSink sink(log, origin.scenario.physics.step_s);
+  std::atomic<bool> done = false;
+  EpisodeSinks sinks;
+  sinks.messages = &sink;
+  sinks.interrupted = &done;  // a log that ends early is compared as far as it goes
+  sinks.on_progress = [&](double time_s) { done = sink.Finished(time_s); };
+  (void)RunEpisode(origin.scenario, robot, ground, sinks);
+  return sink.Result();
+}
+
+}  // namespace scoria::app

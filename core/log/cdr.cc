@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/log/cdr.h"
+
+namespace scoria::core::cdr_detail {
+
+std::string ShortTypeName(const std::string& type_name) {
+  const std::size_t at = type_name.find("/msg/");
+  return at == std::string::npos ? type_name : type_name.substr(0, at) + type_name.substr(at + 4);
+}
+
+}  // namespace scoria::core::cdr_detail

@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+/// Messages of the log. `interfaces/*` are the reference framework's definitions, field by field,
+/// so that simulated and field logs read alike; `scoria_msgs/*` are ours. Legs FL FR HL HR, joints
+/// HAA HFE KFE, quaternions x y z w.
+namespace scoria::core::msg {
+
+struct Time {
+  static constexpr const char* kTypeName = "builtin_interfaces/msg/Time";
+  std::int32_t sec = 0;
+  std::uint32_t nanosec = 0;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a("sec", sec);
+    a("nanosec", nanosec);
+  }
+};
+
+struct Header {
+  static constexpr const char* kTypeName = "std_msgs/msg/Header";
+  Time stamp;
+  std::string frame_id;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a("stamp", stamp);
+    a("frame_id", frame_id);
+  }
+};
+
+struct Vector3 {
+  static constexpr const char* kTypeName = "geometry_msgs/msg/Vector3";
+  double x = 0.0, y = 0.0, z = 0.0;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a("x", x);
+    a("y", y);
+    a("z", z);
+  }
+};
+
+struct Point : Vector3 {
+  static constexpr const char* kTypeName = "geometry_msgs/msg/Point";
+};
+
+struct Quaternion {
+  static constexpr const char* kTypeName = "geometry_msgs/msg/Quaternion";
+  double x = 0.0, y = 0.0, z = 0.0, w = 1.0;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a("x", x);
+    a("y", y);
+    a("z", z);
+    a("w", w);
+  }
+};
+
+struct Pose {
+  static constexpr const char* kTypeName = "geometry_msgs/msg/Pose";
+  Point position;
+  Quaternion orientation;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a("position", position);
+    a("orientation", orientation);
+  }
+};
+
+struct Twist {
+  static constexpr const char* kTypeName = "geometry_msgs/msg/Twist";
+  Vector3 linear, angular;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a("linear", linear);
+    a("angular", angular);
+  }
+};
+
+struct Accel : Twist {
+  static constexpr const char* kTypeName = "geometry_msgs/msg/Accel";
+};
+
+struct PoseWithCovariance {
+  static constexpr const char* kTypeName = "geometry_msgs/msg/PoseWithCovariance";
+  Pose pose;
+  std::array<double, 36> covariance{};
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a("pose", pose);
+    a("covariance", covariance);
+  }
+};
+
+struct TwistWithCovariance {
+  static constexpr const char* kTypeName = "geometry_msgs/msg/TwistWithCovariance";
+  Twist twist;
+  std::array<double, 36> covariance{};
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a("twist", twist);
+    a("covariance", covariance);
+  }
+};
+
+struct Imu {
+  static constexpr const char* kTypeName = "sensor_msgs/msg/Imu";
+  Header header;
+  Quaternion orientation;
+  std::array<double, 9> orientation_covariance{};
+  Vector3 angular_velocity;
+  std::array<double, 9> angular_velocity_covariance{};
+  Vector3 linear_acceleration;
+  std::array<double, 9> linear_acceleration_covariance{};
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a("header", header);
+    a("orientation", orientation);
+    a("orientation_covariance", orientation_covariance);
+    a("angular_velocity", angular_velocity);
+    a("angular_velocity_covariance", angular_velocity_covariance);
+    a("linear_acceleration", linear_acceleration);
+    a("linear_acceleration_covariance", linear_acceleration_covariance);
+  }
+};
+
+struct JointState {
+  static constexpr const char* kTypeName = "interfaces/msg/JointState";
+  Header header;
+  std::array<double, 12> position{}, velocity{}, effort{}, acceleration{};
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a("header", header);
+    a("position", position);
+    a("velocity", velocity);
+    a("effort", effort);
+    a("acceleration", acceleration);
+  }
+};
+
+struct JointCmd {
+  static constexpr const char* kTypeName = "interfaces/msg/JointCmd";
+  Header header;
+  std::array<double, 12> position{}, velocity{}, effort{}, kp{}, kd{};
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a("header", header);
+    a("position", position);
+    a("velocity", velocity);
+    a("effort", effort);
+    a("kp", kp);
+    a("kd", kd);
+  }
+};
+
+/// Twist in world axes; ground_contact_force in W (the reference's estimator writes body axes, its
+/// simulator world).
+struct QuadState {
+  static constexpr const char* kTypeName = "interfaces/msg/QuadState";
+  Header header;
+  PoseWithCovariance pose;
+  TwistWithCovariance twist;
+  Accel acceleration;
+  JointState joint_state;
+  std::array<bool, 4> foot_contact{};
+  std::array<double, 12> ground_contact_force{};
+  bool belly_contact = false;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a("header", header);
+    a("pose", pose);
+    a("twist", twist);
+    a("acceleration", acceleration);
+    a("joint_state", joint_state);
+    a("foot_contact", foot_contact);
+    a("ground_contact_force", ground_contact_force);
+    a("belly_contact", belly_contact);
+  }
+};
+
+struct ContactState {
+  static constexpr const char* kTypeName = "interfaces/msg/ContactState";
+  Header header;
+  std::array<double, 4> ground_contact_force{};
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a("header", header);
+    a("ground_contact_force", ground_contact_force);
+  }
+};
+
+struct QuadControlTarget {
+  static constexpr const char* kTypeName = "interfaces/msg/QuadControlTarget";
+  double body_x_dot = 0.0, body_y_dot = 0.0, world_z = 0.0, hybrid_theta_dot = 0.0, pitch = 0.0,
+         roll = 0.0;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a("body_x_dot", body_x_dot);
+    a("body_y_dot", body_y_dot);
+    a("world_z", world_z);
+    a("hybrid_theta_dot", hybrid_theta_dot);
+    a("pitch", pitch);
+    a("roll", roll);
+  }
+};
+
+struct GaitState {
+  static constexpr const char* kTypeName = "interfaces/msg/GaitState";
+  double period = 0.0;
+  std::array<double, 4> duty_factor{}, phase_offset{};
+  std::array<bool, 4> contact{};
+  std::array<double, 4> phase{};
+  std::uint8_t gait_sequencer = 0;  // 0 simple, 1 adaptive
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a("period", period);
+    a("duty_factor", duty_factor);
+    a("phase_offset", phase_offset);
+    a("contact", contact);
+    a("phase", phase);
+    a("gait_sequencer", gait_sequencer);
+  }
+};
+
+struct WBCTarget {
+  static constexpr const char* kTypeName = "interfaces/msg/WBCTarget";
+  Header header;
+  Pose pose;
+  Twist twist;
+  std::array<bool, 4> feet_contacts{};
+  std::array<Vector3, 4> feet_pos_targets{}, feet_vel_targets{}, feet_acc_targets{},
+      feet_wrenches{};
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a("header", header);
+    a("pose", pose);
+    a("twist", twist);
+    a("feet_contacts", feet_contacts);
+    a("feet_pos_targets", feet_pos_targets);
+    a("feet_vel_targets", feet_vel_targets);
+    a("feet_acc_targets", feet_acc_targets);
+    a("feet_wrenches", feet_wrenches);
+  }
+};
+
+struct MPCDiagnostics {
+  static constexpr const char* kTypeName = "interfaces/msg/MPCDiagnostics";
+  Header header;
+  double solve_time = 0.0, acados_solve_qp_time = 0.0, acados_condensing_time = 0.0,
+         acados_interface_time = 0.0, acados_total_time = 0.0;
+  std::int64_t acados_num_iter = 0, acados_t_computed = 0, acados_return = 0;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a("header", header);
+    a("solve_time", solve_time);
+    a("acados_solve_qp_time", acados_solve_qp_time);
+    a("acados_condensing_time", acados_condensing_time);
+    a("acados_interface_time", acados_interface_time);
+    a("acados_total_time", acados_total_time);
+    a("acados_num_iter", acados_num_iter);
+    a("acados_t_computed", acados_t_computed);
+    a("acados_return", acados_return);
+  }
+};
+
+struct WBCReturn {
+  static constexpr const char* kTypeName = "interfaces/msg/WBCReturn";
+  Header header;
+  bool success = false;
+  double total_time = 0.0, qp_update_time = 0.0, qp_solve_time = 0.0;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a("header", header);
+    a("success", success);
+    a("total_time", total_time);
+    a("qp_update_time", qp_update_time);
+    a("qp_solve_time", qp_solve_time);
+  }
+};
+
+struct ControllerInfo {
+  static constexpr const char* kTypeName = "interfaces/msg/ControllerInfo";
+  Header header;
+  std::uint32_t num_early_contacts = 0, num_mpc_solver_overtime = 0, num_wbc_overtime = 0,
+                num_mpc_solver_fail = 0, num_wbc_solver_fail = 0, num_model_updates = 0;
+  bool keep_pose_active = false;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a("header", header);
+    a("num_early_contacts", num_early_contacts);
+    a("num_mpc_solver_overtime", num_mpc_solver_overtime);
+    a("num_wbc_overtime", num_wbc_overtime);
+    a("num_mpc_solver_fail", num_mpc_solver_fail);
+    a("num_wbc_solver_fail", num_wbc_solver_fail);
+    a("num_model_updates", num_model_updates);
+    a("keep_pose_active", keep_pose_active);
+  }
+};
+
+struct BatteryState {
+  static constexpr const char* kTypeName = "interfaces/msg/BatteryState";
+  float voltage = 0.0f, current = 0.0f;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a("voltage", voltage);
+    a("current", current);
+  }
+};
+
+/// FNV-1a over the bits of the true state, every hundred physics steps.
+struct StateHash {
+  static constexpr const char* kTypeName = "scoria_msgs/msg/StateHash";
+  std::int64_t step = 0;
+  std::uint64_t hash = 0;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a("step", step);
+    a("hash", hash);
+  }
+};
+
+struct Event {
+  static constexpr const char* kTypeName = "scoria_msgs/msg/Event";
+  std::int64_t step = 0;
+  std::string kind, detail;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a("step", step);
+    a("kind", kind);
+    a("detail", detail);
+  }
+};
+
+}  // namespace scoria::core::msg

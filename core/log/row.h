@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+namespace scoria::core {
+
+/// One instant of an episode, as analysis sees it: at the rate of the body controller, streamed by
+/// the runner or read from a log (topic /scoria/row). Truth comes from the simulator. Legs FL FR HL
+/// HR; vectors x y z in W unless named otherwise.
+struct LogRow {
+  static constexpr const char* kTypeName = "scoria_msgs/msg/Row";
+
+  std::int64_t step = 0;
+  double time_s = 0.0;
+
+  // Truth.
+  std::array<double, 3> p_WB_m{}, v_WB_mps{}, w_WB_radps{}, rpy_rad{};
+  std::array<double, 12> q_rad{}, qd_radps{}, tau_Nm{};
+  std::array<double, 12> p_WF_m{}, f_F_W_N{};
+  double trunk_force_N = 0.0;
+  double ground_z_m = 0.0;  // under the trunk
+  double total_mass_kg = 0.0;
+  double mech_abs_J = 0.0, mech_pos_J = 0.0, electrical_J = 0.0;  // since the start
+
+  // What was asked for and decided.
+  double cmd_v_x_mps = 0.0, cmd_v_y_mps = 0.0, cmd_w_z_radps = 0.0;
+  std::array<double, 3> ref_rpy_rad{}, ref_p_WC_m{}, ref_v_WC_mps{};
+  double com_z_m = 0.0;  // true height of the centre of mass
+  double period_s = 0.0, duty = 0.0;
+  std::array<double, 4> phase{};
+  std::array<bool, 4> planned_stance{}, contact{};
+  std::array<std::uint8_t, 4> leg_mode{};  // 0 stance, 1 swing, 2 early contact, 3 late contact
+  std::array<double, 12> foot_target_m{};
+  bool operating = false;     // the walking controller is in charge
+  bool fallen = false;        // from the fall until the robot is set on its feet and walks again
+  std::uint32_t segment = 0;  // counts placements: rows of different segments are not one path
+
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a("step", step);
+    a("time_s", time_s);
+    a("p_WB_m", p_WB_m);
+    a("v_WB_mps", v_WB_mps);
+    a("w_WB_radps", w_WB_radps);
+    a("rpy_rad", rpy_rad);
+    a("q_rad", q_rad);
+    a("qd_radps", qd_radps);
+    a("tau_Nm", tau_Nm);
+    a("p_WF_m", p_WF_m);
+    a("f_F_W_N", f_F_W_N);
+    a("trunk_force_N", trunk_force_N);
+    a("ground_z_m", ground_z_m);
+    a("total_mass_kg", total_mass_kg);
+    a("mech_abs_J", mech_abs_J);
+    a("mech_pos_J", mech_pos_J);
+    a("electrical_J", electrical_J);
+    a("cmd_v_x_mps", cmd_v_x_mps);
+    a("cmd_v_y_mps", cmd_v_y_mps);
+    a("cmd_w_z_radps", cmd_w_z_radps);
+    a("ref_rpy_rad", ref_rpy_rad);
+    a("ref_p_WC_m", ref_p_WC_m);
+    a("ref_v_WC_mps", ref_v_WC_mps);
+    a("com_z_m", com_z_m);
+    a("period_s", period_s);
+    a("duty", duty);
+    a("phase", phase);
+    a("planned_stance", planned_stance);
+    a("contact", contact);
+    a("leg_mode", leg_mode);
+    a("foot_target_m", foot_target_m);
+    a("operating", operating);
+    a("fallen", fallen);
+    a("segment", segment);
+  }
+};
+
+/// Wall-clock times of the solvers in one row's tick; zero where none ran. Kept apart from LogRow,
+/// which is reproducible.
+struct SolveTimes {
+  double mpc_s = 0.0, wbc_s = 0.0;
+};
+
+}  // namespace scoria::core
