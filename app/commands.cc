@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/campaign.h"
 #include "app/episode_files.h"
 #include "app/progress.h"
 #include "app/scenario.h"
@@ -90,6 +91,33 @@ void AddRun(CLI::App& app, int& exit_code) {
   });
 }
 
+void AddCampaign(CLI::App& app, int& exit_code) {
+  struct Options {
+    std::string file, out;
+    std::vector<std::string> set;
+    int workers = 2;
+  };
+  auto o = std::make_shared<Options>();
+  CLI::App* campaign = app.add_subcommand("campaign", "walk arms x sweep x seeds in worker processes; resumes");
+  campaign->add_option("campaign", o->file, "campaign YAML")->required();
+  campaign->add_option("--set", o->set, "override a key, as seeds=10 or scenario.operator.distance_m=50");
+  campaign->add_option("--out", o->out, "folder for the results (default out/NAME)");
+  campaign->add_option("--workers", o->workers, "processes at a time")->check(CLI::Range(1, 1024));
+  campaign->callback([o, &exit_code] {
+    const Campaign loaded = LoadCampaign(o->file, o->set);
+    CatchInterrupts();
+    CampaignOptions options;
+    options.folder = o->out.empty() ? std::filesystem::path("out") / loaded.name : std::filesystem::path(o->out);
+    options.workers = o->workers;
+    options.program = std::filesystem::read_symlink("/proc/self/exe").string();
+    options.interrupted = &g_interrupted;
+    const CampaignOutcome outcome = RunCampaign(loaded, options);
+    fmt::print("{}: {} episodes ({} from before, {} crashed){} in {}\n", loaded.name, outcome.episodes, outcome.done_before,
+               outcome.crashed, outcome.interrupted ? ", interrupted" : "", options.folder.string());
+    exit_code = outcome.interrupted ? kStopped : kOk;
+  });
+}
+
 void AddVerify(CLI::App& app, int& exit_code) {
   auto log = std::make_shared<std::string>();
   CLI::App* verify = app.add_subcommand("verify", "re-run a log and compare it bit for bit");
@@ -111,6 +139,7 @@ void AddVerify(CLI::App& app, int& exit_code) {
 
 void AddCommands(CLI::App& app, int& exit_code) {
   AddRun(app, exit_code);
+  AddCampaign(app, exit_code);
   AddVerify(app, exit_code);
 }
 

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "analysis/stats.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <boost/math/distributions/beta.hpp>
+#include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
+#include <limits>
+
+#include "core/rng.h"
+
+namespace scoria::analysis {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+double Quantile(std::vector<double>& sorted_in_place, double share) {
+  std::sort(sorted_in_place.begin(), sorted_in_place.end());
+  const double at = share * static_cast<double>(sorted_in_place.size() - 1);
+  const auto i = static_cast<std::size_t>(at);
+  const std::size_t next = std::min(i + 1, sorted_in_place.size() - 1);
+  return sorted_in_place[i] + (at - static_cast<double>(i)) * (sorted_in_place[next] - sorted_in_place[i]);
+}
+
+/// Number of basis functions that the distinct speeds can carry.
+int Terms(std::span<const double> x) {
+  std::vector<double> rounded;
+  for (const double v : x) rounded.push_back(std::round(v * 20.0));  // speeds within 0.05 m/s count as one
+  std::sort(rounded.begin(), rounded.end());
+  rounded.erase(std::unique(rounded.begin(), rounded.end()), rounded.end());
+  return std::min<int>(3, static_cast<int>(rounded.size()));
+}
+
+Eigen::Vector3d FitOnce(std::span<const double> x, std::span<const double> y, int terms) {
+  const auto n = static_cast<Eigen::Index>(x.size());
+  Eigen::MatrixXd A(n, terms);
+  Eigen::VectorXd b(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    A(i, 0) = 1.0;
+    if (terms > 1) A(i, 1) = x[k];
+    if (terms > 2) A(i, 2) = 1.0 / x[k];
+    b[i] = y[k];
+  }
+  const Eigen::VectorXd solution = A.colPivHouseholderQr().solve(b);
+  Eigen::Vector3d c = Eigen::Vector3d::Zero();
+  c.head(terms) = solution;
+  return c;
+}
+
+double Evaluate(const Eigen::Vector3d& c, double x) { return c[0] + c[1] * x + (c[2] != 0.0 ? c[2] / x : 0.0); }
+
+}  // namespace
+
+RateEstimate EstimateRate(long events, double exposure, double confidence) {
+  RateEstimate e;
+  e.events = events;
+  e.exposure = exposure;
+  if (exposure <= 0.0) {
+    e.rate = kNan;
+    e.interval = {0.0, kInfinity};
+    return e;
+  }
+  const double alpha = 1.0 - confidence, n = static_cast<double>(events);
+  e.rate = n / exposure;
+  using ChiSquared = boost::math::chi_squared_distribution<double>;
+  if (events > 0) e.interval.low = 0.5 * quantile(ChiSquared(2.0 * n), alpha / 2.0) / exposure;
+  e.interval.high = 0.5 * quantile(ChiSquared(2.0 * n + 2.0), 1.0 - alpha / 2.0) / exposure;
+  return e;
+}
+
+RatioEstimate EstimateRateRatio(const RateEstimate& a, const RateEstimate& b, double confidence) {
+  RatioEstimate r;
+  const long total = a.events + b.events;
+  if (total == 0 || a.exposure <= 0.0 || b.exposure <= 0.0) {
+    r.ratio = kNan;
+    r.interval = {0.0, kInfinity};
+    return r;
+  }
+  const double x = static_cast<double>(a.events), n = static_cast<double>(total);
+  const auto odds_to_ratio = [&](double p) { return p >= 1.0 ? kInfinity : p / (1.0 - p) * b.exposure / a.exposure; };
+  r.ratio = b.events == 0 ? kInfinity : a.rate / b.rate;
+  const double alpha = 1.0 - confidence;
+  using Beta = boost::math::beta_distribution<double>;
+  const double low = a.events == 0 ? 0.0 : quantile(Beta(x, n - x + 1.0), alpha / 2.0);
+  const double high = b.events == 0 ? 1.0 : quantile(Beta(x + 1.0, n - x), 1.0 - alpha / 2.0);
+  r.interval = {odds_to_ratio(low), odds_to_ratio(high)};
+  const boost::math::binomial_distribution<double> null(n, a.exposure / (a.exposure + b.exposure));
+  const double below = cdf(null, x), above = a.events == 0 ? 1.0 : cdf(complement(null, x - 1.0));
+  r.p_value = std::min(1.0, 2.0 * std::min(below, above));
+  return r;
+}
+
+double DetectableRatio(double rate, double exposure_each, double power) {
+  if (rate <= 0.0 || exposure_each <= 0.0) return kInfinity;
+  const double z_alpha = 1.959964, z_power = power >= 0.9 ? 1.281552 : 0.841621;
+  // var(log ratio) = 1 / n_a + 1 / n_b with n_a = ratio n_b: solve log r = z sqrt((1 + 1/r) / n) by fixed point.
+  const double n = rate * exposure_each;
+  double log_ratio = 0.5;
+  for (int i = 0; i < 100; ++i) {
+    log_ratio = (z_alpha + z_power) * std::sqrt((1.0 + std::exp(-log_ratio)) / n);
+  }
+  return std::exp(log_ratio);
+}
+
+Dispersion CheckDispersion(std::span<const long> counts, std::span<const double> exposures) {
+  Dispersion d;
+  double events = 0.0, exposure = 0.0;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    events += static_cast<double>(counts[i]);
+    exposure += exposures[i];
+  }
+  if (counts.size() < 2 || events == 0.0) return d;
+  double chi2 = 0.0;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const double expected = events * exposures[i] / exposure;
+    if (expected > 0.0) chi2 += (static_cast<double>(counts[i]) - expected) * (static_cast<double>(counts[i]) - expected) / expected;
+  }
+  const double freedom = static_cast<double>(counts.size()) - 1.0;
+  d.index = chi2 / freedom;
+  d.p_value = cdf(complement(boost::math::chi_squared_distribution<double>(freedom), chi2));
+  return d;
+}
+
+Interval BootstrapRateRatio(std::span<const PairedCounts> terrains, std::uint64_t seed, int resamples,
+                            double confidence) {
+  if (terrains.size() < 3) return {0.0, kInfinity};
+  core::Rng rng(seed, 0, core::Stream::kOperator);
+  std::vector<double> ratios;
+  for (int i = 0; i < resamples; ++i) {
+    PairedCounts sum;
+    for (std::size_t k = 0; k < terrains.size(); ++k) {
+      const auto pick = static_cast<std::size_t>(rng.NextUniform() * static_cast<double>(terrains.size()));
+      sum.events_a += terrains[pick].events_a;
+      sum.events_b += terrains[pick].events_b;
+      sum.exposure_a += terrains[pick].exposure_a;
+      sum.exposure_b += terrains[pick].exposure_b;
+    }
+    // Half an event on either side keeps resamples without events finite.
+    ratios.push_back((static_cast<double>(sum.events_a) + 0.5) / sum.exposure_a /
+                     ((static_cast<double>(sum.events_b) + 0.5) / sum.exposure_b));
+  }
+  const double alpha = 1.0 - confidence;
+  return {Quantile(ratios, alpha / 2.0), Quantile(ratios, 1.0 - alpha / 2.0)};
+}
+
+CurveFit FitCostCurve(std::span<const double> x, std::span<const double> y, std::uint64_t seed) {
+  CurveFit fit;
+  if (x.size() < 3) return fit;
+  const int terms = Terms(x);
+  const Eigen::Vector3d c = FitOnce(x, y, terms);
+  fit.valid = true;
+  fit.b = c[0];
+  fit.c = c[1];
+  fit.a = c[2];
+  double mean = 0.0, residual = 0.0, total = 0.0;
+  for (const double v : y) mean += v / static_cast<double>(y.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    residual += std::pow(y[i] - Evaluate(c, x[i]), 2);
+    total += std::pow(y[i] - mean, 2);
+  }
+  fit.r2 = total > 0.0 ? 1.0 - residual / total : 0.0;
+
+  constexpr int kGrid = 40, kResamples = 400;
+  const auto [low, high] = std::minmax_element(x.begin(), x.end());
+  for (int i = 0; i < kGrid; ++i) {
+    fit.x.push_back(*low + (*high - *low) * i / (kGrid - 1.0));
+    fit.y.push_back(Evaluate(c, fit.x.back()));
+  }
+  core::Rng rng(seed, 1, core::Stream::kOperator);
+  std::vector<std::vector<double>> samples(kGrid);
+  std::vector<double> xs(x.size()), ys(x.size());
+  for (int r = 0; r < kResamples; ++r) {
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const auto pick = static_cast<std::size_t>(rng.NextUniform() * static_cast<double>(x.size()));
+      xs[i] = x[pick];
+      ys[i] = y[pick];
+    }
+    const Eigen::Vector3d cs = FitOnce(xs, ys, terms);
+    for (std::size_t i = 0; i < kGrid; ++i) samples[i].push_back(Evaluate(cs, fit.x[i]));
+  }
+  for (auto& s : samples) {
+    fit.low.push_back(Quantile(s, 0.025));
+    fit.high.push_back(Quantile(s, 0.975));
+  }
+  return fit;
+}
+
+}  // namespace scoria::analysis

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/campaign.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "app/progress.h"
+#include "app/scenario.h"
+
+namespace scoria::app {
+namespace {
+
+namespace fs = std::filesystem;
+using core::ConfigError;
+using core::ConfigNode;
+
+/// The part of a campaign file that has a fixed form.
+struct CampaignFile {
+  std::string name;
+  std::uint64_t first_seed = 1;
+  int seeds = 3;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Required("name", name);
+    a.Field("first_seed", first_seed);
+    a.Field("seeds", seeds, {.min = 1, .max = 100000});
+  }
+};
+
+const ConfigNode& Require(const ConfigNode& node, const char* key) {
+  const ConfigNode* child = node.Find(key);
+  if (child == nullptr) throw ConfigError(node.origin, key, "is missing and has no default");
+  return *child;
+}
+
+CampaignArm ReadArm(const ConfigNode& node, std::size_t index) {
+  const std::string path = fmt::format("arms[{}]", index);
+  CampaignArm arm;
+  for (const ConfigNode::Entry& entry : node.entries) {
+    if (entry.key == "name") {
+      core::ConfigReader::Read(entry.value, path + ".name", arm.name);
+    } else if (entry.key == "set") {
+      arm.set = entry.value;
+    } else {
+      throw ConfigError(entry.key_origin, path + "." + entry.key, "unknown key; known here: name, set");
+    }
+  }
+  if (arm.name.empty()) throw ConfigError(node.origin, path + ".name", "is missing and has no default");
+  return arm;
+}
+
+CampaignAxis ReadAxis(const ConfigNode& node, std::size_t index) {
+  const std::string path = fmt::format("sweep[{}]", index);
+  CampaignAxis axis;
+  core::ConfigReader reader(node, path);
+  reader.Required("key", axis.key);
+  reader.Field("label", axis.label);
+  reader.Required("values", axis.values);
+  reader.Finish();
+  if (axis.values.empty()) throw ConfigError(node.origin, path + ".values", "is empty");
+  if (axis.label.empty()) axis.label = axis.key;
+  return axis;
+}
+
+/// One episode to run.
+struct Job {
+  std::string id, arm;
+  std::vector<std::string> point;  // value per axis
+  std::uint64_t seed = 0;
+  std::string scenario_yaml;
+};
+
+std::string FileName(const std::string& text) {
+  std::string out = text;
+  std::replace_if(out.begin(), out.end(), [](char c) { return !std::isalnum(c) && c != '.' && c != '-'; }, '_');
+  return out;
+}
+
+void AddJobs(const Campaign& campaign, const CampaignArm& arm, std::vector<std::string>& point, std::vector<Job>& jobs) {
+  if (point.size() < campaign.sweep.size()) {
+    for (const std::string& value : campaign.sweep[point.size()].values) {
+      point.push_back(value);
+      AddJobs(campaign, arm, point, jobs);
+      point.pop_back();
+    }
+    return;
+  }
+  ConfigNode node = campaign.scenario;
+  core::MergeConfig(node, arm.set);
+  for (std::size_t i = 0; i < point.size(); ++i) core::ApplyOverride(node, campaign.sweep[i].key + "=" + point[i]);
+  for (int k = 0; k < campaign.seeds; ++k) {
+    Scenario scenario = core::ReadConfig<Scenario>(node);
+    Job job;
+    job.arm = arm.name;
+    job.point = point;
+    job.seed = scenario.seed = campaign.first_seed + static_cast<std::uint64_t>(k);
+    job.id = FileName(arm.name);
+    for (const std::string& value : point) job.id += "-" + FileName(value);
+    job.id += fmt::format("-s{}", job.seed);
+    scenario.name = job.id;
+    job.scenario_yaml = EffectiveYaml(scenario);
+    jobs.push_back(std::move(job));
+  }
+}
+
+std::string ReadText(const fs::path& path) {
+  std::ifstream in(path);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+void WriteText(const fs::path& path, const std::string& text) {
+  std::ofstream out(path);
+  out << text;
+  if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot write", path.string()));
+}
+
+/// Starts `scoria run` on a job; its output goes to the episode's folder.
+pid_t StartWorker(const std::string& program, const fs::path& folder) {
+  const std::string scenario = (folder / "job.yaml").string(), out = folder.string(), log = (folder / "worker.txt").string();
+  const pid_t pid = fork();
+  if (pid != 0) return pid;
+  if (std::freopen(log.c_str(), "w", stderr) == nullptr) _exit(127);
+  execl(program.c_str(), program.c_str(), "run", scenario.c_str(), "--out", out.c_str(), "--quiet", nullptr);
+  _exit(127);
+}
+
+/// A worker that died leaves its death as the episode's result.
+void WriteCrash(const fs::path& folder, const Job& job, int status) {
+  const std::string how = WIFSIGNALED(status) ? fmt::format("signal {}", WTERMSIG(status))
+                                              : fmt::format("exit code {}", WEXITSTATUS(status));
+  const nlohmann::json json = {{"scenario", job.id}, {"seed", job.seed}, {"end", "crashed"}, {"how", how},
+                               {"message", ReadText(folder / "worker.txt")}};
+  WriteText(folder / "result.json", json.dump(2) + "\n");
+}
+
+bool IsDone(const fs::path& folder, const Job& job) {
+  return fs::exists(folder / "result.json") && ReadText(folder / "job.yaml") == job.scenario_yaml;
+}
+
+void WriteIndex(const Campaign& campaign, const std::vector<Job>& jobs, const fs::path& folder) {
+  nlohmann::json index = {{"name", campaign.name}, {"arms", nlohmann::json::array()}, {"sweep", nlohmann::json::array()},
+                          {"episodes", nlohmann::json::array()}};
+  for (const CampaignArm& arm : campaign.arms) index["arms"].push_back(arm.name);
+  for (const CampaignAxis& axis : campaign.sweep) {
+    index["sweep"].push_back({{"key", axis.key}, {"label", axis.label}, {"values", axis.values}});
+  }
+  for (const Job& job : jobs) {
+    index["episodes"].push_back({{"id", job.id}, {"arm", job.arm}, {"point", job.point}, {"seed", job.seed}});
+  }
+  WriteText(folder / "campaign.json", index.dump(2) + "\n");
+}
+
+}  // namespace
+
+Campaign LoadCampaign(const fs::path& file, const std::vector<std::string>& overrides) {
+  ConfigNode node = core::LoadConfig(file);
+  for (const std::string& assignment : overrides) core::ApplyOverride(node, assignment);
+  Campaign campaign;
+  campaign.scenario = Require(node, "scenario");
+  const ConfigNode &arms = Require(node, "arms"), *sweep = node.Find("sweep");
+  for (std::size_t i = 0; i < arms.items.size(); ++i) campaign.arms.push_back(ReadArm(arms.items[i], i));
+  if (campaign.arms.empty()) throw ConfigError(arms.origin, "arms", "must list at least one arm");
+  for (std::size_t i = 0; sweep != nullptr && i < sweep->items.size(); ++i) {
+    campaign.sweep.push_back(ReadAxis(sweep->items[i], i));
+  }
+  std::erase_if(node.entries, [](const ConfigNode::Entry& e) {
+    return e.key == "scenario" || e.key == "arms" || e.key == "sweep";
+  });
+  const auto rest = core::ReadConfig<CampaignFile>(node);
+  campaign.name = rest.name;
+  campaign.first_seed = rest.first_seed;
+  campaign.seeds = rest.seeds;
+  return campaign;
+}
+
+CampaignOutcome RunCampaign(const Campaign& campaign, const CampaignOptions& options) {
+  std::vector<Job> jobs;
+  for (const CampaignArm& arm : campaign.arms) {
+    std::vector<std::string> point;
+    AddJobs(campaign, arm, point, jobs);
+  }
+  const fs::path episodes = options.folder / "episodes";
+  fs::create_directories(episodes);
+  WriteIndex(campaign, jobs, options.folder);
+
+  CampaignOutcome outcome;
+  outcome.episodes = static_cast<int>(jobs.size());
+  std::vector<const Job*> waiting;
+  for (const Job& job : jobs) {
+    if (IsDone(episodes / job.id, job)) {
+      ++outcome.done_before;
+    } else {
+      waiting.push_back(&job);
+    }
+  }
+  // Seeds first, arms last: an early look at a running campaign compares arms on equal ground.
+  std::stable_sort(waiting.begin(), waiting.end(), [](const Job* a, const Job* b) { return a->seed < b->seed; });
+  std::reverse(waiting.begin(), waiting.end());  // taken from the back
+
+  std::map<pid_t, const Job*> running;
+  ProgressBar bar(campaign.name);
+  int done = outcome.done_before, falls = 0;
+  const auto stopped = [&] { return options.interrupted != nullptr && options.interrupted->load(); };
+  while (!waiting.empty() || !running.empty()) {
+    while (!stopped() && !waiting.empty() && static_cast<int>(running.size()) < options.workers) {
+      const Job& job = *waiting.back();
+      waiting.pop_back();
+      const fs::path folder = episodes / job.id;
+      fs::remove_all(folder);
+      fs::create_directories(folder);
+      WriteText(folder / "job.yaml", job.scenario_yaml);
+      const pid_t pid = StartWorker(options.program, folder);
+      if (pid < 0) throw std::runtime_error("cannot start a worker process");
+      running[pid] = &job;
+    }
+    if (stopped() && running.empty()) break;
+    int status = 0;
+    const pid_t pid = waitpid(-1, &status, WNOHANG);
+    const auto found = running.find(pid);
+    if (found == running.end()) {
+      if (stopped()) {
+        for (const auto& [worker, job] : running) kill(worker, SIGTERM);
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      bar.Update(static_cast<double>(done) / static_cast<double>(jobs.size()),
+                 fmt::format("{}/{} episodes, {} falls, {} crashed", done, jobs.size(), falls, outcome.crashed));
+      continue;
+    }
+    const Job& job = *found->second;
+    const fs::path folder = episodes / job.id;
+    running.erase(found);
+    if (stopped()) {
+      fs::remove(folder / "result.json");  // an interrupted episode is run again
+      continue;
+    }
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || !fs::exists(folder / "result.json")) {
+      WriteCrash(folder, job, status);
+      ++outcome.crashed;
+    } else {
+      falls += nlohmann::json::parse(ReadText(folder / "result.json")).at("falls").get<int>();
+    }
+    ++done;
+  }
+  outcome.interrupted = stopped();
+  return outcome;
+}
+
+}  // namespace scoria::app
