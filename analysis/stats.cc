@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "analysis/stats.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Dense>
 #include <boost/math/distributions/beta.hpp>
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/chi_squared.hpp>
-#include <cmath>
-#include <limits>
 
 #include "core/rng.h"
 
@@ -22,16 +23,8 @@ double Quantile(std::vector<double>& sorted_in_place, double share) {
   const double at = share * static_cast<double>(sorted_in_place.size() - 1);
   const auto i = static_cast<std::size_t>(at);
   const std::size_t next = std::min(i + 1, sorted_in_place.size() - 1);
-  return sorted_in_place[i] + (at - static_cast<double>(i)) * (sorted_in_place[next] - sorted_in_place[i]);
-}
-
-/// Number of basis functions that the distinct speeds can carry.
-int Terms(std::span<const double> x) {
-  std::vector<double> rounded;
-  for (const double v : x) rounded.push_back(std::round(v * 20.0));  // speeds within 0.05 m/s count as one
-  std::sort(rounded.begin(), rounded.end());
-  rounded.erase(std::unique(rounded.begin(), rounded.end()), rounded.end());
-  return std::min<int>(3, static_cast<int>(rounded.size()));
+  return sorted_in_place[i] +
+         (at - static_cast<double>(i)) * (sorted_in_place[next] - sorted_in_place[i]);
 }
 
 Eigen::Vector3d FitOnce(std::span<const double> x, std::span<const double> y, int terms) {
@@ -51,7 +44,9 @@ Eigen::Vector3d FitOnce(std::span<const double> x, std::span<const double> y, in
   return c;
 }
 
-double Evaluate(const Eigen::Vector3d& c, double x) { return c[0] + c[1] * x + (c[2] != 0.0 ? c[2] / x : 0.0); }
+double Evaluate(const Eigen::Vector3d& c, double x) {
+  return c[0] + c[1] * x + (c[2] != 0.0 ? c[2] / x : 0.0);
+}
 
 }  // namespace
 
@@ -81,7 +76,9 @@ RatioEstimate EstimateRateRatio(const RateEstimate& a, const RateEstimate& b, do
     return r;
   }
   const double x = static_cast<double>(a.events), n = static_cast<double>(total);
-  const auto odds_to_ratio = [&](double p) { return p >= 1.0 ? kInfinity : p / (1.0 - p) * b.exposure / a.exposure; };
+  const auto odds_to_ratio = [&](double p) {
+    return p >= 1.0 ? kInfinity : p / (1.0 - p) * b.exposure / a.exposure;
+  };
   r.ratio = b.events == 0 ? kInfinity : a.rate / b.rate;
   const double alpha = 1.0 - confidence;
   using Beta = boost::math::beta_distribution<double>;
@@ -97,7 +94,8 @@ RatioEstimate EstimateRateRatio(const RateEstimate& a, const RateEstimate& b, do
 double DetectableRatio(double rate, double exposure_each, double power) {
   if (rate <= 0.0 || exposure_each <= 0.0) return kInfinity;
   const double z_alpha = 1.959964, z_power = power >= 0.9 ? 1.281552 : 0.841621;
-  // var(log ratio) = 1 / n_a + 1 / n_b with n_a = ratio n_b: solve log r = z sqrt((1 + 1/r) / n) by fixed point.
+  // var(log ratio) = 1 / n_a + 1 / n_b with n_a = ratio n_b: solve log r = z sqrt((1 + 1/r) / n) by
+  // fixed point.
   const double n = rate * exposure_each;
   double log_ratio = 0.5;
   for (int i = 0; i < 100; ++i) {
@@ -117,7 +115,9 @@ Dispersion CheckDispersion(std::span<const long> counts, std::span<const double>
   double chi2 = 0.0;
   for (std::size_t i = 0; i < counts.size(); ++i) {
     const double expected = events * exposures[i] / exposure;
-    if (expected > 0.0) chi2 += (static_cast<double>(counts[i]) - expected) * (static_cast<double>(counts[i]) - expected) / expected;
+    if (expected > 0.0)
+      chi2 += (static_cast<double>(counts[i]) - expected) *
+              (static_cast<double>(counts[i]) - expected) / expected;
   }
   const double freedom = static_cast<double>(counts.size()) - 1.0;
   d.index = chi2 / freedom;
@@ -125,15 +125,16 @@ Dispersion CheckDispersion(std::span<const long> counts, std::span<const double>
   return d;
 }
 
-Interval BootstrapRateRatio(std::span<const PairedCounts> terrains, std::uint64_t seed, int resamples,
-                            double confidence) {
+Interval BootstrapRateRatio(std::span<const PairedCounts> terrains, std::uint64_t seed,
+                            int resamples, double confidence) {
   if (terrains.size() < 3) return {0.0, kInfinity};
   core::Rng rng(seed, 0, core::Stream::kOperator);
   std::vector<double> ratios;
   for (int i = 0; i < resamples; ++i) {
     PairedCounts sum;
     for (std::size_t k = 0; k < terrains.size(); ++k) {
-      const auto pick = static_cast<std::size_t>(rng.NextUniform() * static_cast<double>(terrains.size()));
+      const auto pick =
+          static_cast<std::size_t>(rng.NextUniform() * static_cast<double>(terrains.size()));
       sum.events_a += terrains[pick].events_a;
       sum.events_b += terrains[pick].events_b;
       sum.exposure_a += terrains[pick].exposure_a;
@@ -147,10 +148,10 @@ Interval BootstrapRateRatio(std::span<const PairedCounts> terrains, std::uint64_
   return {Quantile(ratios, alpha / 2.0), Quantile(ratios, 1.0 - alpha / 2.0)};
 }
 
-CurveFit FitCostCurve(std::span<const double> x, std::span<const double> y, std::uint64_t seed) {
+CurveFit FitCostCurve(std::span<const double> x, std::span<const double> y, int terms,
+                      std::uint64_t seed) {
   CurveFit fit;
   if (x.size() < 3) return fit;
-  const int terms = Terms(x);
   const Eigen::Vector3d c = FitOnce(x, y, terms);
   fit.valid = true;
   fit.b = c[0];

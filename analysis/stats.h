@@ -21,9 +21,9 @@ struct RateEstimate {
 /// @param exposure > 0. @param confidence in (0, 1). Source: [Garwood1936].
 [[nodiscard]] RateEstimate EstimateRate(long events, double exposure, double confidence = 0.95);
 
-/// Ratio of the rate of `a` to the rate of `b`, exact given the total: events of a are binomial with probability
-/// r x_a / (r x_a + x_b). The interval is Clopper-Pearson's; p tests "the rates are equal", two-sided. Without any event the
-/// ratio is undefined: NaN with the interval [0, inf).
+/// Ratio of the rate of `a` to the rate of `b`, exact given the total: events of a are binomial
+/// with probability r x_a / (r x_a + x_b). The interval is Clopper-Pearson's; p tests "the rates
+/// are equal", two-sided. Without any event the ratio is undefined: NaN with the interval [0, inf).
 struct RatioEstimate {
   double ratio = 0.0;
   Interval interval;
@@ -33,33 +33,40 @@ struct RatioEstimate {
 [[nodiscard]] RatioEstimate EstimateRateRatio(const RateEstimate& a, const RateEstimate& b,
                                               double confidence = 0.95);
 
-/// The smallest rate ratio above 1 that this budget detects with probability `power` at two-sided level 1 - confidence, if
-/// the lower rate is `rate` (normal approximation on log rates, [Lehr1992] form). Infinite without events.
+/// The smallest rate ratio above 1 that this budget detects with probability `power` at two-sided
+/// level 1 - confidence, if the lower rate is `rate` (normal approximation on log rates, [Lehr1992]
+/// form). Infinite without events.
 [[nodiscard]] double DetectableRatio(double rate, double exposure_each, double power = 0.8);
 
-/// Variance over mean of counts per unit exposure across terrains; 1 for Poisson, more when terrains differ.
+/// Variance over mean of counts per unit exposure across terrains; 1 for Poisson, more when
+/// terrains differ.
 struct Dispersion {
   double index = 1.0;
   double p_value = 1.0;  // of "Poisson", one-sided
 };
-[[nodiscard]] Dispersion CheckDispersion(std::span<const long> counts, std::span<const double> exposures);
+[[nodiscard]] Dispersion CheckDispersion(std::span<const long> counts,
+                                         std::span<const double> exposures);
 
-/// Interval of the rate ratio by resampling terrains (clusters) with their pairs of counts. Needs >= 3 terrains.
+/// Interval of the rate ratio by resampling terrains (clusters) with their pairs of counts. Needs
+/// >= 3 terrains.
 struct PairedCounts {
   long events_a = 0, events_b = 0;
   double exposure_a = 0.0, exposure_b = 0.0;
 };
-[[nodiscard]] Interval BootstrapRateRatio(std::span<const PairedCounts> terrains, std::uint64_t seed,
-                                          int resamples = 2000, double confidence = 0.95);
+[[nodiscard]] Interval BootstrapRateRatio(std::span<const PairedCounts> terrains,
+                                          std::uint64_t seed, int resamples = 2000,
+                                          double confidence = 0.95);
 
-/// Least-squares fit of y = a / x + b + c x (cost of transport against speed), with r² and a pointwise bootstrap band.
+/// Least-squares fit of y = a / x + b + c x (cost of transport against speed), with r² and a
+/// pointwise bootstrap band.
 struct CurveFit {
   bool valid = false;
   double a = 0.0, b = 0.0, c = 0.0, r2 = 0.0;
   std::vector<double> x, y, low, high;  // curve and 95 % band on a grid over the data's range
 };
-/// Falls back to y = b + c x, then to y = b, when there are fewer than 3 or 2 distinct speeds.
-[[nodiscard]] CurveFit FitCostCurve(std::span<const double> x, std::span<const double> y,
+/// @param terms how many of b, c x, a / x the data can carry: at most the number of distinct
+/// commanded speeds, 1 to 3.
+[[nodiscard]] CurveFit FitCostCurve(std::span<const double> x, std::span<const double> y, int terms,
                                     std::uint64_t seed);
 
 }  // namespace scoria::analysis

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/campaign.h"
 
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
+
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "app/progress.h"
 #include "app/scenario.h"
@@ -51,10 +51,12 @@ CampaignArm ReadArm(const ConfigNode& node, std::size_t index) {
     } else if (entry.key == "set") {
       arm.set = entry.value;
     } else {
-      throw ConfigError(entry.key_origin, path + "." + entry.key, "unknown key; known here: name, set");
+      throw ConfigError(entry.key_origin, path + "." + entry.key,
+                        "unknown key; known here: name, set");
     }
   }
-  if (arm.name.empty()) throw ConfigError(node.origin, path + ".name", "is missing and has no default");
+  if (arm.name.empty())
+    throw ConfigError(node.origin, path + ".name", "is missing and has no default");
   return arm;
 }
 
@@ -81,11 +83,13 @@ struct Job {
 
 std::string FileName(const std::string& text) {
   std::string out = text;
-  std::replace_if(out.begin(), out.end(), [](char c) { return !std::isalnum(c) && c != '.' && c != '-'; }, '_');
+  std::replace_if(
+      out.begin(), out.end(), [](char c) { return !std::isalnum(c) && c != '.' && c != '-'; }, '_');
   return out;
 }
 
-void AddJobs(const Campaign& campaign, const CampaignArm& arm, std::vector<std::string>& point, std::vector<Job>& jobs) {
+void AddJobs(const Campaign& campaign, const CampaignArm& arm, std::vector<std::string>& point,
+             std::vector<Job>& jobs) {
   if (point.size() < campaign.sweep.size()) {
     for (const std::string& value : campaign.sweep[point.size()].values) {
       point.push_back(value);
@@ -96,7 +100,8 @@ void AddJobs(const Campaign& campaign, const CampaignArm& arm, std::vector<std::
   }
   ConfigNode node = campaign.scenario;
   core::MergeConfig(node, arm.set);
-  for (std::size_t i = 0; i < point.size(); ++i) core::ApplyOverride(node, campaign.sweep[i].key + "=" + point[i]);
+  for (std::size_t i = 0; i < point.size(); ++i)
+    core::ApplyOverride(node, campaign.sweep[i].key + "=" + point[i]);
   for (int k = 0; k < campaign.seeds; ++k) {
     Scenario scenario = core::ReadConfig<Scenario>(node);
     Job job;
@@ -127,11 +132,13 @@ void WriteText(const fs::path& path, const std::string& text) {
 
 /// Starts `scoria run` on a job; its output goes to the episode's folder.
 pid_t StartWorker(const std::string& program, const fs::path& folder) {
-  const std::string scenario = (folder / "job.yaml").string(), out = folder.string(), log = (folder / "worker.txt").string();
+  const std::string scenario = (folder / "job.yaml").string(), out = folder.string(),
+                    log = (folder / "worker.txt").string();
   const pid_t pid = fork();
   if (pid != 0) return pid;
   if (std::freopen(log.c_str(), "w", stderr) == nullptr) _exit(127);
-  execl(program.c_str(), program.c_str(), "run", scenario.c_str(), "--out", out.c_str(), "--quiet", nullptr);
+  execl(program.c_str(), program.c_str(), "run", scenario.c_str(), "--out", out.c_str(), "--quiet",
+        nullptr);
   _exit(127);
 }
 
@@ -139,7 +146,10 @@ pid_t StartWorker(const std::string& program, const fs::path& folder) {
 void WriteCrash(const fs::path& folder, const Job& job, int status) {
   const std::string how = WIFSIGNALED(status) ? fmt::format("signal {}", WTERMSIG(status))
                                               : fmt::format("exit code {}", WEXITSTATUS(status));
-  const nlohmann::json json = {{"scenario", job.id}, {"seed", job.seed}, {"end", "crashed"}, {"how", how},
+  const nlohmann::json json = {{"scenario", job.id},
+                               {"seed", job.seed},
+                               {"end", "crashed"},
+                               {"how", how},
                                {"message", ReadText(folder / "worker.txt")}};
   WriteText(folder / "result.json", json.dump(2) + "\n");
 }
@@ -149,14 +159,17 @@ bool IsDone(const fs::path& folder, const Job& job) {
 }
 
 void WriteIndex(const Campaign& campaign, const std::vector<Job>& jobs, const fs::path& folder) {
-  nlohmann::json index = {{"name", campaign.name}, {"arms", nlohmann::json::array()}, {"sweep", nlohmann::json::array()},
+  nlohmann::json index = {{"name", campaign.name},
+                          {"arms", nlohmann::json::array()},
+                          {"sweep", nlohmann::json::array()},
                           {"episodes", nlohmann::json::array()}};
   for (const CampaignArm& arm : campaign.arms) index["arms"].push_back(arm.name);
   for (const CampaignAxis& axis : campaign.sweep) {
     index["sweep"].push_back({{"key", axis.key}, {"label", axis.label}, {"values", axis.values}});
   }
   for (const Job& job : jobs) {
-    index["episodes"].push_back({{"id", job.id}, {"arm", job.arm}, {"point", job.point}, {"seed", job.seed}});
+    index["episodes"].push_back(
+        {{"id", job.id}, {"arm", job.arm}, {"point", job.point}, {"seed", job.seed}});
   }
   WriteText(folder / "campaign.json", index.dump(2) + "\n");
 }
@@ -169,7 +182,8 @@ Campaign LoadCampaign(const fs::path& file, const std::vector<std::string>& over
   Campaign campaign;
   campaign.scenario = Require(node, "scenario");
   const ConfigNode &arms = Require(node, "arms"), *sweep = node.Find("sweep");
-  for (std::size_t i = 0; i < arms.items.size(); ++i) campaign.arms.push_back(ReadArm(arms.items[i], i));
+  for (std::size_t i = 0; i < arms.items.size(); ++i)
+    campaign.arms.push_back(ReadArm(arms.items[i], i));
   if (campaign.arms.empty()) throw ConfigError(arms.origin, "arms", "must list at least one arm");
   for (std::size_t i = 0; sweep != nullptr && i < sweep->items.size(); ++i) {
     campaign.sweep.push_back(ReadAxis(sweep->items[i], i));
@@ -205,13 +219,16 @@ CampaignOutcome RunCampaign(const Campaign& campaign, const CampaignOptions& opt
     }
   }
   // Seeds first, arms last: an early look at a running campaign compares arms on equal ground.
-  std::stable_sort(waiting.begin(), waiting.end(), [](const Job* a, const Job* b) { return a->seed < b->seed; });
+  std::stable_sort(waiting.begin(), waiting.end(),
+                   [](const Job* a, const Job* b) { return a->seed < b->seed; });
   std::reverse(waiting.begin(), waiting.end());  // taken from the back
 
   std::map<pid_t, const Job*> running;
   ProgressBar bar(campaign.name);
   int done = outcome.done_before, falls = 0;
-  const auto stopped = [&] { return options.interrupted != nullptr && options.interrupted->load(); };
+  const auto stopped = [&] {
+    return options.interrupted != nullptr && options.interrupted->load();
+  };
   while (!waiting.empty() || !running.empty()) {
     while (!stopped() && !waiting.empty() && static_cast<int>(running.size()) < options.workers) {
       const Job& job = *waiting.back();
@@ -234,7 +251,8 @@ CampaignOutcome RunCampaign(const Campaign& campaign, const CampaignOptions& opt
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
       bar.Update(static_cast<double>(done) / static_cast<double>(jobs.size()),
-                 fmt::format("{}/{} episodes, {} falls, {} crashed", done, jobs.size(), falls, outcome.crashed));
+                 fmt::format("{}/{} episodes, {} falls, {} crashed", done, jobs.size(), falls,
+                             outcome.crashed));
       continue;
     }
     const Job& job = *found->second;

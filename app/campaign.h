@@ -22,7 +22,8 @@ struct CampaignAxis {
   std::vector<std::string> values;  // in YAML
 };
 
-/// arms x sweep x seeds over one scenario. Arms share seeds, so that they walk the same ground (paired).
+/// arms x sweep x seeds over one scenario. Arms share seeds, so that they walk the same ground
+/// (paired).
 struct Campaign {
   std::string name;
   core::ConfigNode scenario;
@@ -37,9 +38,9 @@ struct Campaign {
                                     const std::vector<std::string>& overrides);
 
 struct CampaignOptions {
-  std::filesystem::path folder;   // out/NAME by default
+  std::filesystem::path folder;  // out/NAME by default
   int workers = 2;
-  std::string program;            // the scoria executable, for the workers
+  std::string program;  // the scoria executable, for the workers
   bool quiet = false;
   const std::atomic<bool>* interrupted = nullptr;
 };
@@ -49,8 +50,9 @@ struct CampaignOutcome {
   bool interrupted = false;
 };
 
-/// Runs every episode in a worker process of its own: a crash is an outcome in the results, never the end of the batch.
-/// Episodes whose result stands in the folder under the same scenario are kept, so a stopped campaign resumes.
+/// Runs every episode in a worker process of its own: a crash is an outcome in the results, never
+/// the end of the batch. Episodes whose result stands in the folder under the same scenario are
+/// kept, so a stopped campaign resumes.
 CampaignOutcome RunCampaign(const Campaign& campaign, const CampaignOptions& options);
 
 }  // namespace scoria::app

@@ -9,11 +9,15 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "analysis/import.h"
+#include "analysis/report.h"
+#include "analysis/video/video.h"
 #include "app/campaign.h"
 #include "app/episode_files.h"
 #include "app/progress.h"
 #include "app/scenario.h"
 #include "app/verify.h"
+#include "terrains/generator.h"
 
 namespace scoria::app {
 namespace {
@@ -98,23 +102,79 @@ void AddCampaign(CLI::App& app, int& exit_code) {
     int workers = 2;
   };
   auto o = std::make_shared<Options>();
-  CLI::App* campaign = app.add_subcommand("campaign", "walk arms x sweep x seeds in worker processes; resumes");
+  CLI::App* campaign =
+      app.add_subcommand("campaign", "walk arms x sweep x seeds in worker processes; resumes");
   campaign->add_option("campaign", o->file, "campaign YAML")->required();
-  campaign->add_option("--set", o->set, "override a key, as seeds=10 or scenario.operator.distance_m=50");
+  campaign->add_option("--set", o->set,
+                       "override a key, as seeds=10 or scenario.operator.distance_m=50");
   campaign->add_option("--out", o->out, "folder for the results (default out/NAME)");
   campaign->add_option("--workers", o->workers, "processes at a time")->check(CLI::Range(1, 1024));
   campaign->callback([o, &exit_code] {
     const Campaign loaded = LoadCampaign(o->file, o->set);
     CatchInterrupts();
     CampaignOptions options;
-    options.folder = o->out.empty() ? std::filesystem::path("out") / loaded.name : std::filesystem::path(o->out);
+    options.folder =
+        o->out.empty() ? std::filesystem::path("out") / loaded.name : std::filesystem::path(o->out);
     options.workers = o->workers;
     options.program = std::filesystem::read_symlink("/proc/self/exe").string();
     options.interrupted = &g_interrupted;
     const CampaignOutcome outcome = RunCampaign(loaded, options);
-    fmt::print("{}: {} episodes ({} from before, {} crashed){} in {}\n", loaded.name, outcome.episodes, outcome.done_before,
-               outcome.crashed, outcome.interrupted ? ", interrupted" : "", options.folder.string());
+    fmt::print("{}: {} episodes ({} from before, {} crashed){} in {}\n", loaded.name,
+               outcome.episodes, outcome.done_before, outcome.crashed,
+               outcome.interrupted ? ", interrupted" : "", options.folder.string());
     exit_code = outcome.interrupted ? kStopped : kOk;
+  });
+}
+
+void AddReport(CLI::App& app) {
+  auto folder = std::make_shared<std::string>();
+  CLI::App* report =
+      app.add_subcommand("report", "write FOLDER/report/report.html of a run or campaign");
+  report->add_option("folder", *folder, "what run or campaign wrote")->required();
+  report->callback([folder] { fmt::print("{}\n", analysis::WriteReport(*folder).string()); });
+}
+
+void AddRender(CLI::App& app) {
+  struct Options {
+    std::string log, out, frames;
+    double from_s = 0.0, to_s = 1e9;
+    std::vector<int> size = {960, 540};
+    int fps = 30;
+  };
+  auto o = std::make_shared<Options>();
+  CLI::App* render = app.add_subcommand("render", "make an H.264 video of a log, without a screen");
+  render->add_option("log", o->log, "MCAP log that scoria wrote")->required();
+  render->add_option("--out", o->out, "video file (default: beside the log)");
+  render->add_option("--frames", o->frames, "folder for a PNG every five seconds");
+  render->add_option("--from", o->from_s, "start [s]");
+  render->add_option("--to", o->to_s, "end [s]");
+  render->add_option("--size", o->size, "width and height [px]")
+      ->expected(2)
+      ->check(CLI::Range(64, 4096));
+  render->add_option("--fps", o->fps, "frames per second")->check(CLI::Range(1, 240));
+  render->callback([o] {
+    const LogOrigin origin = ReadLogOrigin(o->log);
+    const core::RobotDescription robot = core::MakeRobot(origin.scenario.robot, origin.urdf_text);
+    const terrains::Heightfield ground =
+        terrains::GenerateTerrain(origin.scenario.terrain, origin.scenario.seed, 0);
+    analysis::LogContent content = analysis::ReadLog(o->log);
+    std::erase_if(content.rows, [&](const core::LogRow& r) {
+      return r.time_s < o->from_s || r.time_s > o->to_s;
+    });
+    analysis::VideoOptions options;
+    options.file = o->out.empty() ? std::filesystem::path(o->log).replace_extension(".mp4")
+                                  : std::filesystem::path(o->out);
+    options.frames = o->frames;
+    options.width_px = o->size[0];
+    options.height_px = o->size[1];
+    options.fps = o->fps;
+    options.title = origin.scenario.name;
+    {
+      ProgressBar bar("video");
+      options.on_progress = [&](double share) { bar.Update(share, ""); };
+      analysis::RenderVideo(content.rows, robot, ground, options);
+    }
+    fmt::print("{}\n", options.file.string());
   });
 }
 
@@ -140,6 +200,8 @@ void AddVerify(CLI::App& app, int& exit_code) {
 void AddCommands(CLI::App& app, int& exit_code) {
   AddRun(app, exit_code);
   AddCampaign(app, exit_code);
+  AddReport(app);
+  AddRender(app);
   AddVerify(app, exit_code);
 }
 

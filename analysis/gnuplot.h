@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace scoria::analysis {
+
+/// One figure as a gnuplot script with its data inside. Render writes NAME.gp, .svg, .png and .pdf
+/// into the folder, so that a reader can restyle the figure without scoria.
+class Figure {
+ public:
+  Figure(std::string name, std::string title, int width_px = 900, int height_px = 560);
+
+  /// A data block, referred to as $name in the script. Rows are lists of columns; NaN is a gap.
+  void Data(const std::string& name, const std::vector<std::vector<double>>& rows);
+  /// One line of gnuplot script.
+  void Line(const std::string& text) { script_ += text + "\n"; }
+
+  /// Errors: std::runtime_error with gnuplot's words.
+  void Render(const std::filesystem::path& folder) const;
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] const std::string& title() const { return title_; }
+
+ private:
+  std::string name_, title_, data_, script_;
+  int width_px_, height_px_;
+};
+
+/// Text that gnuplot's enhanced mode shows as it stands.
+[[nodiscard]] std::string Escape(const std::string& text);
+
+/// Colours of arms, safe for the common colour-vision deficiencies ([Okabe2008]).
+[[nodiscard]] std::string ArmColour(std::size_t index);
+
+}  // namespace scoria::analysis

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "analysis/html.h"
+
+#include <cctype>
+
+#include <fmt/format.h>
+
+namespace scoria::analysis {
+namespace {
+
+constexpr const char* kStyle = R"(
+body { font: 15px/1.5 "DejaVu Sans", system-ui, sans-serif; color: #222; max-width: 1100px; margin: 2em auto; padding: 0 1em; }
+h1 { font-size: 1.7em; margin-bottom: 0.2em; } h2 { font-size: 1.25em; margin-top: 2em; border-bottom: 1px solid #ddd; }
+table { border-collapse: collapse; font-size: 12px; display: block; overflow-x: auto; }
+th, td { padding: 0.25em 0.6em; border-bottom: 1px solid #e5e5e5; text-align: left; }
+td { white-space: nowrap; } th { background: #f4f4f4; vertical-align: bottom; }
+figure { margin: 1.5em 0; } figure svg { max-width: 100%; height: auto; } video { max-width: 100%; }
+figcaption, .note { color: #555; font-size: 13px; } li { margin: 0.3em 0; }
+)";
+
+/// gnuplot gives the same ids to the parts of every drawing; on one page they must differ.
+std::string WithUniqueIds(const std::string& svg, int number) {
+  std::string out;
+  const std::string prefix = fmt::format("s{}_", number);
+  for (std::size_t i = 0; i < svg.size(); ++i) {
+    out += svg[i];
+    const auto ends = [&](const char* word) {
+      return out.size() >= std::char_traits<char>::length(word) && out.ends_with(word);
+    };
+    if (ends(" id=\"") || ends(" id='") || ends("href=\"#") || ends("href='#") || ends("url(#"))
+      out += prefix;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string EscapeHtml(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+HtmlPage::HtmlPage(const std::string& title) : title_(EscapeHtml(title)) {
+  body_ = fmt::format("<h1>{}</h1>\n", title_);
+}
+
+void HtmlPage::Heading(const std::string& text) {
+  body_ += fmt::format("<h2>{}</h2>\n", EscapeHtml(text));
+}
+void HtmlPage::Paragraph(const std::string& text) {
+  body_ += fmt::format("<p>{}</p>\n", EscapeHtml(text));
+}
+void HtmlPage::Note(const std::string& text) {
+  body_ += fmt::format("<p class=\"note\">{}</p>\n", EscapeHtml(text));
+}
+
+void HtmlPage::List(const std::vector<std::string>& items) {
+  body_ += "<ul>\n";
+  for (const std::string& item : items) body_ += fmt::format("<li>{}</li>\n", EscapeHtml(item));
+  body_ += "</ul>\n";
+}
+
+void HtmlPage::Table(const std::vector<std::string>& header,
+                     const std::vector<std::vector<std::string>>& rows) {
+  body_ += "<table>\n<tr>";
+  for (const std::string& cell : header) body_ += fmt::format("<th>{}</th>", EscapeHtml(cell));
+  body_ += "</tr>\n";
+  for (const auto& row : rows) {
+    body_ += "<tr>";
+    for (const std::string& cell : row) body_ += fmt::format("<td>{}</td>", EscapeHtml(cell));
+    body_ += "</tr>\n";
+  }
+  body_ += "</table>\n";
+}
+
+void HtmlPage::InlineSvg(const std::string& svg, const std::string& title,
+                         const std::string& caption) {
+  const std::size_t start = svg.find("<svg");
+  body_ += fmt::format(
+      "<figure role=\"img\" aria-label=\"{}\">\n{}\n<figcaption>{}</figcaption>\n</figure>\n",
+      EscapeHtml(title),
+      WithUniqueIds(start == std::string::npos ? svg : svg.substr(start), svgs_++),
+      EscapeHtml(caption));
+}
+
+void HtmlPage::Video(const std::string& path, const std::string& caption) {
+  body_ += fmt::format(
+      "<figure><video controls preload=\"metadata\" src=\"{0}\"></video><figcaption><a "
+      "href=\"{0}\">{1}</a></figcaption></figure>\n",
+      EscapeHtml(path), EscapeHtml(caption));
+}
+
+std::string HtmlPage::Finish() const {
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+      "content=\"width=device-width\"><title>{}</title><style>{}</style></head>\n<body>\n{}</"
+      "body></html>\n",
+      title_, kStyle, body_);
+}
+
+}  // namespace scoria::analysis

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/log/row.h"
+
+namespace scoria::analysis {
+
+/// The rows and fall times of a log.
+struct LogContent {
+  std::vector<core::LogRow> rows;
+  std::vector<double> falls_s;
+  std::string problem;  // what is wrong with the file, in words
+};
+
+/// @param every keeps every n-th row.
+/// Errors: std::runtime_error if the file cannot be read.
+[[nodiscard]] LogContent ReadLog(const std::filesystem::path& log, int every = 1);
+
+}  // namespace scoria::analysis

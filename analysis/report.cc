@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "analysis/report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "analysis/compare.h"
+#include "analysis/figures.h"
+#include "analysis/html.h"
+
+namespace scoria::analysis {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+
+std::string ReadText(const fs::path& path) {
+  std::ifstream in(path);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+void WriteText(const fs::path& path, const std::string& text) {
+  std::ofstream out(path);
+  out << text;
+  if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot write", path.string()));
+}
+
+std::vector<Cell> AllCells(const CampaignResults& results) {
+  std::vector<Cell> cells;
+  for (const auto& point : AllPoints(results.axes)) {
+    for (const std::string& arm : results.arms) cells.push_back(PoolCell(results, arm, point));
+  }
+  return cells;
+}
+
+/// Every arm against the first, over all and at each point.
+std::vector<Comparison> AllComparisons(const CampaignResults& results) {
+  std::vector<Comparison> all;
+  std::vector<std::vector<std::string>> points = {{}};
+  if (!results.axes.empty()) {
+    const auto each = AllPoints(results.axes);
+    points.insert(points.end(), each.begin(), each.end());
+  }
+  for (const auto& point : points) {
+    for (std::size_t a = 1; a < results.arms.size(); ++a)
+      all.push_back(Compare(results, results.arms[0], results.arms[a], point));
+  }
+  return all;
+}
+
+std::string Summary(const CampaignResults& results) {
+  double metres = 0.0;
+  int falls = 0;
+  for (const EpisodeRecord& e : results.episodes) {
+    metres += e.metrics.distance_m;
+    falls += e.falls;
+  }
+  std::string arms;
+  for (const std::string& arm : results.arms) arms += (arms.empty() ? "" : ", ") + arm;
+  std::string sweep;
+  for (const Axis& axis : results.axes) {
+    sweep += fmt::format("{}{} ({})", sweep.empty() ? " over " : " and ", axis.label,
+                         fmt::join(axis.values, ", "));
+  }
+  return fmt::format("{}{}: {} episodes, {:.0f} m walked, {} falls.", arms, sweep,
+                     results.episodes.size(), metres, falls);
+}
+
+/// What went wrong, first: broken episodes, then falls by cause.
+void AddFailures(const CampaignResults& results, HtmlPage& page) {
+  page.Heading("Failures");
+  std::vector<std::vector<std::string>> broken;
+  std::map<std::string, std::map<std::string, int>> causes;
+  long stuck = 0, mpc = 0, wbc = 0, drops = 0;
+  for (const EpisodeRecord& e : results.episodes) {
+    if (e.end != "completed") broken.push_back({e.id, e.end, e.message});
+    for (const FallEvent& f : e.metrics.falls)
+      ++causes[f.cause.substr(0, f.cause.find(' '))][e.arm];
+    stuck += e.stuck;
+    mpc += static_cast<long>(e.mpc_failures);
+    wbc += static_cast<long>(e.wbc_failures);
+    drops += static_cast<long>(e.wbc_torque_drops);
+  }
+  if (broken.empty()) {
+    page.Paragraph("Every episode walked its whole distance.");
+  } else {
+    page.Table({"episode", "ended", "message"}, broken);
+  }
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [cause, per_arm] : causes) {
+    std::vector<std::string> row = {cause};
+    for (const std::string& arm : results.arms)
+      row.push_back(std::to_string(per_arm.contains(arm) ? per_arm.at(arm) : 0));
+    rows.push_back(row);
+  }
+  if (!rows.empty()) {
+    std::vector<std::string> header = {"cause of fall"};
+    header.insert(header.end(), results.arms.begin(), results.arms.end());
+    page.Table(header, rows);
+  }
+  page.Paragraph(
+      fmt::format("Stuck {} times. MPC solver failures: {}; WBC solver failures: {}; WBC solves "
+                  "without torque limits "
+                  "because they were infeasible: {}.",
+                  stuck, mpc, wbc, drops));
+}
+
+void AddVerdicts(const CampaignResults& results, HtmlPage& page) {
+  if (results.arms.size() < 2) return;
+  const std::vector<Comparison> all = AllComparisons(results);
+  page.Heading("Who falls less");
+  std::vector<std::string> pooled, rest;
+  for (const Comparison& c : all) (c.point.empty() ? pooled : rest).push_back(c.verdict);
+  page.Paragraph(
+      "Over the whole sweep, pooled; read it with the single points below, since the sweep's range "
+      "was chosen by hand:");
+  page.List(pooled);
+  if (!rest.empty()) {
+    page.Paragraph("At each point:");
+    page.List(rest);
+  }
+  page.Note(
+      "Ratios of falls per metre with exact intervals (conditional binomial). Where the number of "
+      "falls differs between "
+      "terrains more than chance allows (p < 0.05), the interval comes from resampling terrains "
+      "instead. Intervals are not "
+      "corrected for looking at many points: about one in twenty would miss the truth by chance.");
+}
+
+std::string Value(double x, const char* format) {
+  return std::isfinite(x) ? fmt::format(fmt::runtime(format), x) : "–";
+}
+
+void AddCells(const CampaignResults& results, const std::vector<Cell>& cells, HtmlPage& page) {
+  page.Heading("Numbers");
+  std::vector<std::string> header;
+  for (const Axis& axis : results.axes) header.push_back(axis.label);
+  for (const char* name :
+       {"arm", "metres", "falls", "stuck", "metres per fall", "CoT mech_abs", "CoT mech_pos",
+        "CoT electrical", "velocity RMSE [m/s]", "height RMSE [mm]", "roll RMSE [deg]",
+        "pitch RMSE [deg]", "MPC median / p99 [µs]", "WBC median / p99 [µs]", "real-time factor"}) {
+    header.emplace_back(name);
+  }
+  std::vector<std::vector<std::string>> rows;
+  for (const Cell& c : cells) {
+    std::vector<std::string> row = c.point;
+    row.push_back(c.arm);
+    row.push_back(Value(c.falls.exposure, "{:.0f}"));
+    row.push_back(std::to_string(c.falls.events));
+    row.push_back(std::to_string(c.stuck));
+    row.push_back(MetresPerFall(c.falls));
+    row.push_back(Value(c.cot_mech_abs, "{:.2f}"));
+    row.push_back(Value(c.cot_mech_pos, "{:.2f}"));
+    row.push_back(Value(c.cot_electrical, "{:.2f}"));
+    row.push_back(Value(c.tracking.velocity_rmse_mps, "{:.3f}"));
+    row.push_back(Value(c.tracking.height_rmse_m * 1e3, "{:.1f}"));
+    row.push_back(Value(c.tracking.roll_rmse_rad * kDegrees, "{:.2f}"));
+    row.push_back(Value(c.tracking.pitch_rmse_rad * kDegrees, "{:.2f}"));
+    row.push_back(fmt::format("{:.0f} / {:.0f}", c.mpc_median_s * 1e6, c.mpc_p99_s * 1e6));
+    row.push_back(fmt::format("{:.1f} / {:.1f}", c.wbc_median_s * 1e6, c.wbc_p99_s * 1e6));
+    row.push_back(Value(c.real_time_factor, "{:.1f}"));
+    rows.push_back(std::move(row));
+  }
+  page.Table(header, rows);
+}
+
+void AddTerrain(const CampaignResults& results, HtmlPage& page) {
+  double nu_low = 1e9, nu_high = 0.0, hurst = 0.0, slope = 0.0;
+  int n = 0;
+  for (const EpisodeRecord& e : results.episodes) {
+    if (!e.has_metrics) continue;
+    nu_low = std::min(nu_low, e.terrain_nu_1m_m);
+    nu_high = std::max(nu_high, e.terrain_nu_1m_m);
+    hurst += e.terrain_hurst;
+    slope += e.terrain_slope_mean_rad;
+    ++n;
+  }
+  if (n == 0) return;
+  page.Heading("Ground, as measured on its grids");
+  page.Paragraph(
+      fmt::format("RMS height difference at 1 m, base slope removed: {:.3f} to {:.3f} m; mean "
+                  "Hurst exponent {:.2f}; "
+                  "mean slope at the grid spacing {:.1f} deg.",
+                  nu_low, nu_high, hurst / n, slope / n * kDegrees));
+}
+
+void AddFigures(const std::vector<CaptionedFigure>& figures, const fs::path& folder,
+                HtmlPage& page) {
+  for (const CaptionedFigure& f : figures) {
+    f.figure.Render(folder);
+    page.InlineSvg(ReadText(folder / (f.figure.name() + ".svg")), f.figure.title(), f.caption);
+  }
+}
+
+/// The course of single episodes: all of a single run, the first falls of a campaign.
+void AddCourses(const CampaignResults& results, const fs::path& figures, HtmlPage& page) {
+  constexpr std::size_t kMost = 2;
+  std::vector<CaptionedFigure> courses;
+  for (const EpisodeRecord& e : results.episodes) {
+    const fs::path log = e.folder / "log.mcap";
+    const bool wanted = results.single_run || !e.metrics.falls.empty();
+    if (!wanted || !fs::exists(log) || courses.size() >= kMost) continue;
+    const LogContent content = ReadLog(log, 4);
+    if (!content.rows.empty()) courses.push_back(TimeFigure(content, e.id));
+  }
+  if (courses.empty()) return;
+  page.Heading(results.single_run ? "Course" : "The first falls");
+  AddFigures(courses, figures, page);
+}
+
+void AddVideos(const fs::path& folder, HtmlPage& page) {
+  std::vector<std::pair<std::string, std::string>> links;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() != ".mp4") continue;
+    links.emplace_back("../" + fs::relative(entry.path(), folder).string(),
+                       entry.path().stem().string());
+  }
+  if (links.empty()) return;
+  std::sort(links.begin(), links.end());
+  page.Heading("Videos");
+  for (const auto& [path, name] : links) page.Video(path, name);
+}
+
+void WriteTables(const CampaignResults& results, const std::vector<Cell>& cells,
+                 const fs::path& folder) {
+  std::string csv = "id,arm";
+  for (const Axis& axis : results.axes) csv += "," + axis.key;
+  csv +=
+      ",seed,end,distance_m,falls,stuck,cot_mech_abs,cot_mech_pos,cot_electrical,velocity_rmse_mps,"
+      "height_rmse_m,"
+      "roll_rmse_rad,pitch_rmse_rad,mpc_median_s,mpc_p99_s,wbc_median_s,wbc_p99_s,real_time_"
+      "factor\n";
+  for (const EpisodeRecord& e : results.episodes) {
+    const EpisodeMetrics& m = e.metrics;
+    csv += e.id + "," + e.arm;
+    for (const std::string& value : e.point) csv += "," + value;
+    csv += fmt::format(",{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", e.seed, e.end,
+                       m.distance_m, e.falls, e.stuck, m.cot_mech_abs, m.cot_mech_pos,
+                       m.cot_electrical, m.tracking.velocity_rmse_mps, m.tracking.height_rmse_m,
+                       m.tracking.roll_rmse_rad, m.tracking.pitch_rmse_rad, m.mpc.median_s,
+                       m.mpc.p99_s, m.wbc.median_s, m.wbc.p99_s, e.real_time_factor);
+  }
+  WriteText(folder / "metrics.csv", csv);
+
+  nlohmann::json json = {{"name", results.name},
+                         {"cells", nlohmann::json::array()},
+                         {"comparisons", nlohmann::json::array()}};
+  for (const Cell& c : cells) {
+    json["cells"].push_back({{"arm", c.arm},
+                             {"point", c.point},
+                             {"metres", c.falls.exposure},
+                             {"falls", c.falls.events},
+                             {"falls_per_m", c.falls.rate},
+                             {"falls_per_m_low", c.falls.interval.low},
+                             {"falls_per_m_high", c.falls.interval.high},
+                             {"cot_mech_abs", c.cot_mech_abs},
+                             {"cot_mech_pos", c.cot_mech_pos},
+                             {"cot_electrical", c.cot_electrical},
+                             {"stuck", c.stuck}});
+  }
+  if (results.arms.size() > 1) {
+    for (const Comparison& c : AllComparisons(results)) {
+      json["comparisons"].push_back({{"a", c.a},
+                                     {"b", c.b},
+                                     {"point", c.point},
+                                     {"ratio", c.ratio.ratio},
+                                     {"low", c.ratio.interval.low},
+                                     {"high", c.ratio.interval.high},
+                                     {"p_value", c.ratio.p_value},
+                                     {"dispersion", c.dispersion.index},
+                                     {"verdict", c.verdict}});
+    }
+  }
+  WriteText(folder / "metrics.json", json.dump(2) + "\n");
+}
+
+}  // namespace
+
+fs::path WriteReport(const fs::path& folder) {
+  const CampaignResults results = LoadResults(folder);
+  const fs::path out = folder / "report", figures = out / "figures";
+  fs::create_directories(figures);
+  const std::vector<Cell> cells = AllCells(results);
+
+  HtmlPage page(results.name);
+  page.Paragraph(Summary(results));
+  AddVerdicts(results, page);
+  AddFailures(results, page);
+  const auto falls = FallFigures(results);
+  if (!falls.empty()) page.Heading("Falls");
+  AddFigures(falls, figures, page);
+  page.Heading("Cost of transport");
+  AddFigures(CostFigures(results), figures, page);
+  page.Heading("Tracking and time");
+  AddFigures(ArmFigures(results), figures, page);
+  AddCells(results, cells, page);
+  AddTerrain(results, page);
+  AddCourses(results, figures, page);
+  AddVideos(folder, page);
+  page.Note(
+      "Definitions of every number: docs/METRICS.md. Data: metrics.csv (episodes), metrics.json "
+      "(cells, comparisons); figures with "
+      "their gnuplot scripts: figures/.");
+  const fs::path file = out / "report.html";
+  WriteText(file, page.Finish());
+  WriteTables(results, cells, out);
+  return file;
+}
+
+}  // namespace scoria::analysis

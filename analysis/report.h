@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+
+namespace scoria::analysis {
+
+/// Writes the report of a campaign's or a run's folder into FOLDER/report: report.html
+/// (self-contained, videos linked), metrics.csv, metrics.json, figures as SVG, PNG, PDF and gnuplot
+/// script.
+/// @returns the page. Errors: std::runtime_error.
+std::filesystem::path WriteReport(const std::filesystem::path& folder);
+
+}  // namespace scoria::analysis

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "analysis/metrics.h"
+
+namespace scoria::analysis {
+
+/// One episode as its folder tells it.
+struct EpisodeRecord {
+  std::string id, arm, end, message;
+  std::vector<std::string> point;  // value of each swept key
+  std::uint64_t seed = 0;
+  bool has_metrics = false;  // false for a crashed worker or a missing result
+  int falls = 0, stuck = 0;
+  double walked_m = 0.0, real_time_factor = 0.0;
+  std::uint64_t early_contacts = 0, mpc_failures = 0, wbc_failures = 0, wbc_torque_drops = 0;
+  double terrain_nu_1m_m = 0.0, terrain_hurst = 0.0, terrain_slope_mean_rad = 0.0;
+  EpisodeMetrics metrics;
+  std::filesystem::path folder;
+};
+
+struct Axis {
+  std::string key, label;
+  std::vector<std::string> values;
+  [[nodiscard]] bool IsNumeric() const;
+};
+
+/// A campaign's folder, or a single run's as a campaign of one.
+struct CampaignResults {
+  std::string name;
+  std::vector<std::string> arms;
+  std::vector<Axis> axes;
+  std::vector<EpisodeRecord> episodes;
+  bool single_run = false;
+};
+
+/// Errors: std::runtime_error that names the file and what is missing.
+[[nodiscard]] CampaignResults LoadResults(const std::filesystem::path& folder);
+
+/// All combinations of the axes' values, in order.
+[[nodiscard]] std::vector<std::vector<std::string>> AllPoints(const std::vector<Axis>& axes);
+
+}  // namespace scoria::analysis

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "analysis/video/video.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/videoio.hpp>
+
+#include "analysis/video/scene.h"
+#include "core/math/so3.h"
+
+namespace scoria::analysis {
+namespace {
+
+constexpr Colour kForceColour = {0.10f, 0.55f, 0.95f};
+constexpr Colour kFootholdColour = {0.95f, 0.75f, 0.10f};
+constexpr Colour kPathColour = {0.90f, 0.90f, 0.85f};
+constexpr double kTrail_m = 4.0, kTrailSpacing_m = 0.1;
+
+Vec3 ToVec3(const double* v) { return {v[0], v[1], v[2]}; }
+
+/// Follows the robot from behind and to the side, turning slowly.
+class Camera {
+ public:
+  void Update(const core::LogRow& row, double dt_s, Frame& frame) {
+    const Vec3 p = ToVec3(row.p_WB_m.data());
+    const double yaw = row.rpy_rad[2];
+    constexpr double kSmooth_s = 0.8, kJump_m = 1.0;
+    const double gain =
+        started_ && (p - at_).norm() < kJump_m ? 1.0 - std::exp(-dt_s / kSmooth_s) : 1.0;
+    started_ = true;
+    at_ += gain * (p - at_);
+    yaw_ += gain * core::WrapToPi(yaw - yaw_);
+    constexpr double kAzimuth_rad = 2.35, kDistance_m = 1.75, kHeight_m = 0.62;
+    frame.look_at_W = at_ - Vec3(0.0, 0.0, 0.10);
+    frame.eye_W = at_ + Vec3(kDistance_m * std::cos(yaw_ + kAzimuth_rad),
+                             kDistance_m * std::sin(yaw_ + kAzimuth_rad), kHeight_m);
+  }
+
+ private:
+  Vec3 at_ = Vec3::Zero();
+  double yaw_ = 0.0;
+  bool started_ = false;
+};
+
+Frame MakeFrame(const core::LogRow& row, std::span<const core::LogRow> before) {
+  Frame frame;
+  frame.p_WB = ToVec3(row.p_WB_m.data());
+  frame.R_WB = core::RotationFromRpy(ToVec3(row.rpy_rad.data()));
+  for (const Leg leg : kLegs) {
+    const std::size_t at = 3 * static_cast<std::size_t>(leg);
+    frame.q[leg] = ToVec3(&row.q_rad[at]);
+    const Vec3 foot = ToVec3(&row.p_WF_m[at]), force = ToVec3(&row.f_F_W_N[at]);
+    constexpr double kMetresPerNewton = 0.25 / 75.0, kLongest_m = 0.6;
+    const Vec3 arrow = kMetresPerNewton * force;
+    const double shown = std::min(arrow.norm(), kLongest_m);
+    if (shown > 0.01)
+      frame.sticks.push_back({foot, foot + shown * arrow.normalized(), 0.008, kForceColour});
+    if (row.operating && row.leg_mode[static_cast<std::size_t>(leg)] == 1) {
+      frame.balls.push_back({ToVec3(&row.foot_target_m[at]), 0.012, kFootholdColour});
+    }
+  }
+  // The path walked, as dots on the ground.
+  Vec2 last = frame.p_WB.head<2>();
+  double trail_m = 0.0;
+  for (auto r = before.rbegin();
+       r != before.rend() && trail_m < kTrail_m && r->segment == row.segment; ++r) {
+    const Vec2 p(r->p_WB_m[0], r->p_WB_m[1]);
+    if ((p - last).norm() < kTrailSpacing_m) continue;
+    trail_m += (p - last).norm();
+    last = p;
+    frame.balls.push_back({Vec3(p.x(), p.y(), r->ground_z_m + 0.01), 0.012, kPathColour});
+  }
+  return frame;
+}
+
+void Text(cv::Mat& image, const std::string& text, int x, int y, double scale = 0.55) {
+  cv::putText(image, text, {x, y}, cv::FONT_HERSHEY_SIMPLEX, scale, {30, 30, 30}, 3, cv::LINE_AA);
+  cv::putText(image, text, {x, y}, cv::FONT_HERSHEY_SIMPLEX, scale, {255, 255, 255}, 1,
+              cv::LINE_AA);
+}
+
+/// Which feet bore weight over the last two seconds, FL FR HL HR from the top, now at the right.
+void DrawGaitDiagram(cv::Mat& image, std::span<const core::LogRow> rows, std::size_t now) {
+  constexpr double kSpan_s = 2.0;
+  constexpr int kWidth = 260, kRow = 16, kMargin = 16;
+  const int left = image.cols - kWidth - kMargin, top = image.rows - 4 * kRow - kMargin - 8;
+  cv::Mat panel = image(cv::Rect(left - 40, top - 6, kWidth + 48, 4 * kRow + 12));
+  panel = panel * 0.45;
+  for (std::size_t leg = 0; leg < 4; ++leg) {
+    const int y = top + kRow * static_cast<int>(leg);
+    Text(image, std::string(LegName(kLegs[leg])), left - 34, y + 12, 0.42);
+    const double t_now = rows[now].time_s;
+    for (std::size_t i = now + 1; i-- > 0 && rows[i].time_s > t_now - kSpan_s;) {
+      if (rows[i].f_F_W_N[3 * leg + 2] <= 5.0) continue;
+      const int x =
+          left + static_cast<int>((rows[i].time_s - t_now + kSpan_s) / kSpan_s * (kWidth - 2));
+      cv::rectangle(image, {x, y + 2}, {x + 1, y + kRow - 3}, {240, 200, 90}, cv::FILLED);
+    }
+  }
+}
+
+void DrawOverlay(cv::Mat& image, std::span<const core::LogRow> rows, std::size_t now,
+                 const std::string& title) {
+  const core::LogRow& r = rows[now];
+  const double v = std::hypot(r.v_WB_mps[0], r.v_WB_mps[1]),
+               command = std::hypot(r.cmd_v_x_mps, r.cmd_v_y_mps);
+  Text(image, title, 16, 28, 0.65);
+  Text(image, fmt::format("t {:6.2f} s    v {:4.2f} m/s (asked {:4.2f})", r.time_s, v, command), 16,
+       54);
+  Text(image, fmt::format("T {:4.2f} s    d {:4.2f}", r.period_s, r.duty), 16, 78);
+  if (r.fallen) Text(image, "FALLEN", image.cols / 2 - 60, 60, 1.0);
+  DrawGaitDiagram(image, rows, now);
+}
+
+}  // namespace
+
+void RenderVideo(std::span<const core::LogRow> rows, const core::RobotDescription& robot,
+                 const terrains::Heightfield& ground, const VideoOptions& options) {
+  if (rows.empty()) throw std::runtime_error("video: the log has no rows in this span");
+  Scene scene(robot, ground, options.width_px, options.height_px);
+  cv::VideoWriter writer;
+  const cv::Size size(options.width_px, options.height_px);
+  if (!writer.open(options.file.string(), cv::CAP_FFMPEG,
+                   cv::VideoWriter::fourcc('a', 'v', 'c', '1'), options.fps, size, true)) {
+    throw std::runtime_error(
+        fmt::format("{}: cannot open an H.264 encoder", options.file.string()));
+  }
+  if (!options.frames.empty()) std::filesystem::create_directories(options.frames);
+
+  Camera camera;
+  const double dt_s = 1.0 / options.fps, start_s = rows.front().time_s,
+               length_s = rows.back().time_s - start_s;
+  const int frames = std::max(1, static_cast<int>(length_s * options.fps));
+  std::size_t now = 0;
+  for (int k = 0; k < frames; ++k) {
+    while (now + 1 < rows.size() && rows[now + 1].time_s <= start_s + k * dt_s) ++now;
+    Frame frame = MakeFrame(rows[now], rows.first(now));
+    camera.Update(rows[now], dt_s, frame);
+    const cv::Mat bgra(size, CV_8UC4, const_cast<std::uint8_t*>(scene.Draw(frame)));
+    cv::Mat image;
+    cv::cvtColor(bgra, image, cv::COLOR_BGRA2BGR);
+    DrawOverlay(image, rows, now, options.title);
+    writer.write(image);
+    if (!options.frames.empty() && k % (options.frame_every_s * options.fps) == 0) {
+      cv::imwrite((options.frames / fmt::format("frame_{:05d}.png", k)).string(), image);
+    }
+    if (options.on_progress) options.on_progress(static_cast<double>(k) / frames);
+  }
+}
+
+}  // namespace scoria::analysis

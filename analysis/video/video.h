@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+
+#include "core/log/row.h"
+#include "core/robot/description.h"
+#include "terrains/heightfield.h"
+
+namespace scoria::analysis {
+
+struct VideoOptions {
+  std::filesystem::path file;    // .mp4, H.264
+  std::filesystem::path frames;  // folder for PNG frames; empty for none
+  int width_px = 960, height_px = 540, fps = 30;
+  int frame_every_s = 5;  // of the PNG frames
+  std::string title;
+  std::function<void(double share)> on_progress;
+};
+
+/// Renders rows of one log: robot, ground, foot forces, planned footholds, path walked, and a text
+/// overlay with time, speed and gait diagram. Errors: std::runtime_error if no encoder or no OpenGL
+/// context is at hand.
+void RenderVideo(std::span<const core::LogRow> rows, const core::RobotDescription& robot,
+                 const terrains::Heightfield& ground, const VideoOptions& options);
+
+}  // namespace scoria::analysis
