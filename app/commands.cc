@@ -15,6 +15,7 @@
 #include "app/campaign.h"
 #include "app/episode_files.h"
 #include "app/progress.h"
+#include "app/qp_sets.h"
 #include "app/scenario.h"
 #include "app/verify.h"
 #include "terrains/generator.h"
@@ -178,6 +179,43 @@ void AddRender(CLI::App& app) {
   });
 }
 
+void AddBench(CLI::App& app) {
+  struct Options {
+    std::string folder;
+    int repeats = 5;
+    bool json = false;
+  };
+  auto o = std::make_shared<Options>();
+  CLI::App* bench = app.add_subcommand("bench", "time parts of the program");
+  bench->require_subcommand(1);
+  CLI::App* qp = bench->add_subcommand("qp", "solve and time the QP sets of a folder");
+  qp->add_option("folder", o->folder, "folder of .bin sets")->required();
+  qp->add_option("--repeats", o->repeats, "solves per problem, of which the median counts")
+      ->check(CLI::Range(1, 1000));
+  qp->add_flag("--json", o->json, "print JSON");
+  qp->callback([o] {
+    nlohmann::json json = nlohmann::json::array();
+    for (const QpBenchmark& b : BenchmarkQpSets(o->folder, o->repeats)) {
+      json.push_back({{"file", b.file},
+                      {"problems", b.problems},
+                      {"solved", b.solved},
+                      {"worst_error", b.worst_error},
+                      {"worst_violation_N", b.worst_violation},
+                      {"median_us", b.median_us},
+                      {"p99_us", b.p99_us},
+                      {"iterations", b.mean_iterations}});
+      if (!o->json) {
+        fmt::print(
+            "{:20} {}/{} solved, worst error {:.1e}, violation {:.1e} N, {:.1f} us median, {:.1f} "
+            "us p99, {:.1f} iterations\n",
+            b.file, b.solved, b.problems, b.worst_error, b.worst_violation, b.median_us, b.p99_us,
+            b.mean_iterations);
+      }
+    }
+    if (o->json) fmt::print("{}\n", json.dump(2));
+  });
+}
+
 void AddVerify(CLI::App& app, int& exit_code) {
   auto log = std::make_shared<std::string>();
   CLI::App* verify = app.add_subcommand("verify", "re-run a log and compare it bit for bit");
@@ -201,6 +239,7 @@ void AddCommands(CLI::App& app, int& exit_code) {
   AddRun(app, exit_code);
   AddCampaign(app, exit_code);
   AddReport(app);
+  AddBench(app);
   AddRender(app);
   AddVerify(app, exit_code);
 }

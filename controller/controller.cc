@@ -12,6 +12,13 @@ int EverySteps(double rate_Hz, double step_s) {
   return std::max(1, static_cast<int>(std::lround(1.0 / (rate_Hz * step_s))));
 }
 
+/// Joint control of the pose as it is, until the first tick of the hierarchy.
+StandUpParams HoldOnly(StandUpParams params) {
+  params.duration_s = 1e-6;
+  params.hold_s = 0.0;
+  return params;
+}
+
 /// Wall-clock stopwatch; its reading goes to the record only.
 class Stopwatch {
  public:
@@ -26,30 +33,33 @@ class Stopwatch {
 }  // namespace
 
 Controller::Controller(const ControllerParams& params, const core::RobotDescription& robot,
-                       double gravity_mps2, double step_s, Start start)
+                       double gravity_mps2, double step_s, Start start, std::int64_t first_step)
     : params_(params),
-      clock_(step_s),
+      clock_(step_s, first_step),
+      first_step_(first_step),
       mpc_every_(EverySteps(params.rates.mpc_Hz, step_s)),
       wbc_every_(EverySteps(params.rates.wbc_Hz, step_s)),
-      operating_(start == Start::kStanding),
+      operating_(false),
       model_(robot, gravity_mps2),
       foot_radius_m_(robot.legs[Leg::kFL].foot_radius_m),
       estimator_(MakeStateEstimator(params.estimator)),
-      stand_up_(params.stand_up, StandingPose(robot, robot.config.nominal_height_m)),
+      stand_up_(start == Start::kLying ? params.stand_up : HoldOnly(params.stand_up),
+                StandingPose(robot, robot.config.nominal_height_m)),
       gait_(MakeGaitSequencer(params.gait, robot.config.nominal_height_m)),
       reference_planner_(params.reference, robot.config.nominal_height_m),
       foothold_planner_(params.foothold, robot, gravity_mps2),
       leg_states_(params.legs),
-      swing_(params.swing),
+      swing_(params.swing, robot),
       mpc_(params.mpc, robot, gravity_mps2),
-      wbc_(params.wbc, robot, gravity_mps2) {}
+      wbc_(params.wbc, robot) {}
 
 const ControlOutput& Controller::Step(const SensorFrame& z, const Command& command) noexcept {
   out_.estimate = estimator_->Update(z);
   out_.mpc_updated = out_.wbc_updated = false;
   if (!operating_) {
-    out_.command = stand_up_.Update(z, clock_.time_s());
-    operating_ = stand_up_.IsDone(clock_.time_s()) && clock_.Due(mpc_every_);
+    const double since_s = static_cast<double>(clock_.step() - first_step_) * clock_.step_s();
+    out_.command = stand_up_.Update(z, since_s);
+    operating_ = stand_up_.IsDone(since_s) && clock_.Due(mpc_every_);
   }
   if (operating_) {
     const bool plans_due = clock_.Due(mpc_every_), body_due = clock_.Due(wbc_every_);
@@ -73,14 +83,16 @@ void Controller::StepPlans(const Command& command) noexcept {
   gait.v_xy_mps = wb_.v_WC.head<2>().norm();
   gait.w_z_radps = wb_.state.w_WB.z();
   gait.height_m = wb_.p_WC.z() - reference_.ground_z_m;
-  gait.contact = out_.estimate.contact;
+  for (const Leg leg : kLegs)
+    gait.early_contact[leg] = out_.legs.mode[leg] == LegMode::kEarlyContact;
   gait.dt_s = dt_s;
   gait.horizon = params_.mpc.horizon;
   gait.stage_s = params_.mpc.stage_s;
   out_.contacts = gait_->Plan(gait);
   plan_step_ = clock_.step();
   out_.legs = leg_states_.Update(out_.contacts, out_.estimate.contact, 0.0, 0.0);
-  footholds_ = foothold_planner_.Plan(wb_, out_.contacts, reference_, reference_planner_.plane());
+  footholds_ =
+      foothold_planner_.Plan(wb_, out_.contacts, out_.legs, reference_, reference_planner_.plane());
 
   const Stopwatch watch;
   const MpcResult result = mpc_.Solve({wb_, out_.contacts, out_.legs, reference_, footholds_});
@@ -103,13 +115,9 @@ void Controller::StepPlans(const Command& command) noexcept {
 
 void Controller::StepBody() noexcept {
   const double age_s = static_cast<double>(clock_.step() - plan_step_) * clock_.step_s();
-  const LegPhases before = out_.legs;
   out_.legs =
       leg_states_.Update(out_.contacts, out_.estimate.contact, age_s, wbc_every_ * clock_.step_s());
-  for (const Leg leg : kLegs) {
-    const bool early = out_.legs.mode[leg] == LegMode::kEarlyContact;
-    if (early && before.mode[leg] != LegMode::kEarlyContact) ++counters_.early_contacts;
-  }
+  counters_.early_contacts = leg_states_.early_contacts();
   out_.feet = swing_.Plan(wb_, out_.legs, footholds_);
   if (!active_.plan.valid) return;
 

@@ -85,9 +85,11 @@ class Controller {
  public:
   enum class Start { kLying, kStanding };
 
-  /// @param robot borrowed. @param step_s physics step; rates are rounded to whole steps.
+  /// @param robot borrowed. @param step_s physics step; rates must be whole multiples of it.
+  /// @param first_step index of the physics step at which it starts: ticks fall on multiples of the
+  /// global step.
   Controller(const ControllerParams& params, const core::RobotDescription& robot,
-             double gravity_mps2, double step_s, Start start);
+             double gravity_mps2, double step_s, Start start, std::int64_t first_step = 0);
 
   [[nodiscard]] const ControlOutput& Step(const SensorFrame& z, const Command& command) noexcept;
 
@@ -100,6 +102,7 @@ class Controller {
 
   ControllerParams params_;
   core::StepClock clock_;
+  std::int64_t first_step_;
   int mpc_every_, wbc_every_;
   bool operating_;
   WholeBodyModel model_;

@@ -8,7 +8,8 @@ namespace scoria::core {
 /// Time as a step index; seconds are derived. A rate is "every so many steps".
 class StepClock {
  public:
-  explicit StepClock(double step_s) noexcept : step_s_(step_s) {}
+  explicit StepClock(double step_s, std::int64_t first_step = 0) noexcept
+      : step_s_(step_s), step_(first_step) {}
   void Advance() noexcept { ++step_; }
   [[nodiscard]] std::int64_t step() const noexcept { return step_; }
   [[nodiscard]] double step_s() const noexcept { return step_s_; }
@@ -17,7 +18,7 @@ class StepClock {
 
  private:
   double step_s_;
-  std::int64_t step_ = 0;
+  std::int64_t step_;
 };
 
 }  // namespace scoria::core

@@ -11,7 +11,7 @@ namespace {
 /// then linear to zero.
 constexpr double kKneeShare = 0.7;
 constexpr double kFrictionVelocity_radps =
-    0.1;  // tanh smoothing; stable with any armature above 2e-3 kg m^2
+    0.1;  // tanh smoothing; stable while friction dt / (armature 0.1 rad/s) < 2
 
 double Envelope(double tau, double qd, double effort, double no_load) noexcept {
   double limit = effort;

@@ -22,19 +22,34 @@ struct Nearest {
   Vec3 n_W = Vec3::UnitZ();
 };
 
+/// Gauss-Newton alone diverges over bumps sharper than the foot, so a step is halved until it
+/// brings the point nearer.
 Nearest FindNearest(const terrains::Heightfield& ground, const Vec3& c) {
-  constexpr int kIterations = 4;
+  constexpr int kIterations = 8, kHalvings = 4;
   constexpr double kConverged_m = 1e-9;
   Vec2 xy = c.head<2>();
   terrains::Heightfield::Sample s = ground.At(xy.x(), xy.y());
+  const auto squared_distance = [&c](const Vec2& p, double z_m) {
+    return (c.head<2>() - p).squaredNorm() + (c.z() - z_m) * (c.z() - z_m);
+  };
+  double best = squared_distance(xy, s.z_m);
   for (int i = 0; i < kIterations; ++i) {
     const Vec2& g = s.gradient;
     const Vec2 descent = c.head<2>() - xy + g * (c.z() - s.z_m);
-    const Vec2 step =
-        descent - g * (g.dot(descent) / (1.0 + g.squaredNorm()));  // (I + g gᵀ)⁻¹ descent
-    xy += step;
-    s = ground.At(xy.x(), xy.y());
+    Vec2 step = descent - g * (g.dot(descent) / (1.0 + g.squaredNorm()));  // (I + g gᵀ)⁻¹ descent
     if (step.squaredNorm() < kConverged_m * kConverged_m) break;
+    bool nearer = false;
+    for (int h = 0; h < kHalvings && !nearer; ++h, step *= 0.5) {
+      const Vec2 trial = xy + step;
+      const terrains::Heightfield::Sample t = ground.At(trial.x(), trial.y());
+      const double distance = squared_distance(trial, t.z_m);
+      nearer = distance < best;
+      if (!nearer) continue;
+      best = distance;
+      xy = trial;
+      s = t;
+    }
+    if (!nearer) break;
   }
   return {Vec3(xy.x(), xy.y(), s.z_m), Vec3(-s.gradient.x(), -s.gradient.y(), 1.0).normalized()};
 }

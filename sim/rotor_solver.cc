@@ -90,23 +90,31 @@ class RotorSolver final : public btMultiBodyConstraintSolver {
   }
 
  private:
-  /// Replaces each row's response and rescales what was derived from it.
+  /// Replaces each row's responses and rescales what was derived from them. A row may have the
+  /// robot on both sides: Bullet's upper joint limit lives on side B.
   void CorrectRows(btMultiBodyConstraintArray& rows) {
     for (int i = 0; i < rows.size(); ++i) {
       btMultiBodySolverConstraint& row = rows[i];
-      const int index = row.m_multiBodyA == drives_.body ? row.m_jacAindex : row.m_jacBindex;
-      const Eigen::Map<const Vec18> jacobian(&m_data.m_jacobians[index]);
-      Eigen::Map<Vec18> response(&m_data.m_deltaVelocitiesUnitImpulse[index]);
-      const double before = jacobian.dot(response);
-      correction_->Correct(response);
+      double change = 0.0;
+      if (row.m_multiBodyA == drives_.body) change += CorrectSide(row.m_jacAindex);
+      if (row.m_multiBodyB == drives_.body) change += CorrectSide(row.m_jacBindex);
       if (row.m_jacDiagABInv <= 0.0) continue;
       const double total = 1.0 / row.m_jacDiagABInv;  // response plus regularisation
-      const double scale = total / (total + jacobian.dot(response) - before);
+      const double scale = total / (total + change);
       row.m_jacDiagABInv *= scale;
       row.m_rhs *= scale;
       row.m_rhsPenetration *= scale;
       row.m_cfm *= scale;
     }
+  }
+
+  /// @returns the change of J H⁻¹ Jᵀ.
+  double CorrectSide(int index) {
+    const Eigen::Map<const Vec18> jacobian(&m_data.m_jacobians[index]);
+    Eigen::Map<Vec18> response(&m_data.m_deltaVelocitiesUnitImpulse[index]);
+    const double before = jacobian.dot(response);
+    correction_->Correct(response);
+    return jacobian.dot(response) - before;
   }
 
   const RotorDrives& drives_;

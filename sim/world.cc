@@ -13,7 +13,7 @@
 #include <Eigen/Eigenvalues>
 #include <btBulletDynamicsCommon.h>
 
-#include "core/demand.h"
+#include "core/robot/kinematics.h"
 #include "sim/ground_contact.h"
 #include "sim/rotor_solver.h"
 
@@ -274,7 +274,7 @@ void World::Impl::ReadState(RobotState& state) const {
 void World::Impl::ReadContacts() {
   for (const Leg leg : kLegs) {
     truth.f_F_W[leg].setZero();
-    truth.penetration_m[leg] = 0.0;
+    truth.f_normal_N[leg] = truth.penetration_m[leg] = 0.0;
   }
   Vec3 f_trunk = Vec3::Zero(), f_legs = Vec3::Zero();
   for (int m = 0; m < dispatcher.getNumManifolds(); ++m) {
@@ -293,6 +293,7 @@ void World::Impl::ReadContacts() {
       if (point.m_userPersistentData != nullptr) {
         const Leg leg = kLegs[static_cast<std::size_t>(collider->m_link / kJointsPerLeg)];
         truth.f_F_W[leg] += f_W;
+        truth.f_normal_N[leg] += point.m_appliedImpulse / params.step_s;
         truth.penetration_m[leg] = -point.getDistance();
       } else if (collider->m_link < 0) {
         f_trunk += f_W;
@@ -308,12 +309,10 @@ void World::Impl::ReadContacts() {
 void World::Impl::UpdateTruth(const Vec3& v_before_W, bool stepped) {
   ReadState(truth.state);
   truth.a_WB = stepped ? Vec3((truth.state.v_WB - v_before_W) / params.step_s) : Vec3::Zero();
+  const auto poses = core::CalcLinkPoses(robot, truth.state.p_WB, truth.state.R_WB, truth.state.q);
   for (const Leg leg : kLegs) {
-    const int shank = BodyIndex(leg, Joint::kKFE);
-    const btTransform& X_WP = body->getLink(shank - 1).m_cachedWorldTransform;
-    const Vec3 p_PF = frames[static_cast<std::size_t>(shank)].R_LP.transpose() *
-                      (robot.legs[leg].p_LF - robot.body(shank).p_LC);
-    truth.p_WF[leg] = ToVec3(X_WP * ToBullet(p_PF));
+    const core::LinkPose& shank = poses[static_cast<std::size_t>(BodyIndex(leg, Joint::kKFE))];
+    truth.p_WF[leg] = shank.p_WL + shank.R_WL * robot.legs[leg].p_LF;
   }
 }
 

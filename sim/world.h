@@ -29,6 +29,7 @@ struct Truth {
   Vec3 a_WB = Vec3::Zero();             // m/s^2, mean over the last step
   LegArray<Vec3> p_WF = ZeroPerLeg();   // foot sphere centres
   LegArray<Vec3> f_F_W = ZeroPerLeg();  // N, ground on foot
+  LegArray<double> f_normal_N;          // its share along the ground's normal
   LegArray<double> penetration_m;       // > 0 inside the ground
   double trunk_force_N = 0.0;           // magnitude of all ground force on the trunk
   double leg_force_N = 0.0;             // ... on thighs and shanks (not the feet)

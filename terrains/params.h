@@ -26,6 +26,10 @@ struct RoughnessParams {
     a.Field("min_wavelength_m", min_wavelength_m, {.min = 0.05, .max = 50.0});
     a.Field("max_wavelength_m", max_wavelength_m, {.min = 0.1, .max = 51.2});
   }
+  [[nodiscard]] std::string Problem() const {
+    return min_wavelength_m < max_wavelength_m ? ""
+                                               : "min_wavelength_m must be below max_wavelength_m";
+  }
 };
 
 /// Rocks by size: the area fraction covered by rocks larger than D is k exp(-q D), q = 1.79 + 0.152
@@ -67,6 +71,13 @@ struct TerrainParams {
             {.min = 0.0, .max = 10.0, .doc = "multiplies roughness and rock heights"});
     a.Field("roughness", roughness);
     a.Field("rocks", rocks);
+  }
+  [[nodiscard]] std::string Problem() const {
+    if (size_m < 16.0 * resolution_m) return "size_m must be at least 16 resolution_m";
+    if (roughness.nu_1m_m > 0.0 && roughness.max_wavelength_m < 4.0 * resolution_m) {
+      return "roughness.max_wavelength_m must be at least 4 resolution_m";
+    }
+    return "";
   }
 };
 

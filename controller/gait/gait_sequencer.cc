@@ -59,14 +59,12 @@ class AdaptiveGait final : public GaitSequencer {
 
   ContactPlan Plan(const GaitInput& in) noexcept override {
     const double measured = speed_.Update(in.v_xy_mps);
-    const double commanded = std::hypot(in.command.v_x_mps, in.command.v_y_mps);
     const double v =
         std::max({measured, params_.yaw_arm_m * std::abs(in.w_z_radps),
-                  params_.command_share * CommandedSpeed(in.command, params_.yaw_arm_m),
-                  params_.command_share * commanded});
+                  params_.command_share * CommandedSpeed(in.command, params_.yaw_arm_m)});
     GaitTiming timing = params_.law.Timing(v, in.height_m);
     timing.offset = ToLegArray(params_.offset);
-    engine_.Update(timing, in.dt_s, walk_.Update(in.command, in.v_xy_mps), in.contact);
+    engine_.Update(timing, in.dt_s, walk_.Update(in.command, in.v_xy_mps), in.early_contact);
     return engine_.Predict(in.horizon, in.stage_s);
   }
 

@@ -16,9 +16,9 @@ struct GaitInput {
   Command command;
   double v_xy_mps = 0.0;  // horizontal speed of the COM
   double w_z_radps = 0.0;
-  double height_m = 0.0;   // COM over the ground plane through the feet
-  LegArray<bool> contact;  // felt
-  double dt_s = 0.01;      // since the last tick
+  double height_m = 0.0;         // COM over the ground plane through the feet
+  LegArray<bool> early_contact;  // swing feet that touched the ground before their time
+  double dt_s = 0.01;            // since the last tick
   int horizon = 10;
   double stage_s = 0.05;
 };
@@ -49,6 +49,9 @@ struct StrideLaw {
     a.Field("min_duty", min_duty, {.min = 0.2, .max = 0.95});
     a.Field("max_duty", max_duty, {.min = 0.3, .max = 0.98});
     a.Field("min_speed_mps", min_speed_mps, {.min = 1e-3, .max = 1.0});
+  }
+  [[nodiscard]] std::string Problem() const {
+    return min_duty < max_duty ? "" : "min_duty must be below max_duty";
   }
   /// @param v_mps speed, @param h_m COM height. Offsets are left at their default.
   [[nodiscard]] GaitTiming Timing(double v_mps, double h_m) const noexcept;

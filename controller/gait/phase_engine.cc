@@ -19,9 +19,9 @@ void PhaseEngine::StartWalking() noexcept {
   const double reference = timing_.duty - 1e-9;
   for (const Leg leg : kLegs) {
     phase_[leg] = Fraction(reference + timing_.offset[Leg::kFL] - timing_.offset[leg]);
-    // Patterns with flight would start some leg in the air; it starts at the end of its stance
-    // instead.
-    if (phase_[leg] >= timing_.duty) phase_[leg] = reference;
+    // A leg that the pattern has in the air starts its stance instead; the offset correction brings
+    // it into step.
+    if (phase_[leg] >= timing_.duty) phase_[leg] = 0.0;
   }
   standing_ = false;
 }
@@ -57,6 +57,7 @@ void PhaseEngine::CorrectOffsets(double dt_s) noexcept {
 void PhaseEngine::Update(const GaitTiming& timing, double dt_s, bool walking,
                          const LegArray<bool>& touched_down) noexcept {
   const double old_duty = timing_.duty;
+  walking_ = walking;
   timing_ = timing;
   if (standing_) {
     phase_ = LegArray<double>(0.0);
@@ -77,7 +78,7 @@ void PhaseEngine::Update(const GaitTiming& timing, double dt_s, bool walking,
       next = (next - old_duty) * (1.0 - timing_.duty) / (1.0 - old_duty) + timing_.duty;
     }
     if (next >= 1.0) next = std::min(next - 1.0, 0.5 * timing_.duty);
-    if (touched_down[leg] && next > 0.5 * (1.0 + timing_.duty)) next = 0.0;
+    if (touched_down[leg] && next >= timing_.duty) next = 0.0;
     phase = next;
     all_down = all_down && phase < timing_.duty;
   }
@@ -103,8 +104,11 @@ ContactPlan PhaseEngine::Predict(int horizon, double stage_s) const noexcept {
     plan.swing_s[leg] = (1.0 - timing_.duty) * timing_.period_s;
     plan.swing_remaining_s[leg] = plan.stance[leg] ? 0.0 : (1.0 - phase_[leg]) * timing_.period_s;
     for (int k = 0; k < horizon; ++k) {
-      const double phase = Fraction(phase_[leg] + k * stage_s / timing_.period_s);
-      plan.stage_stance[static_cast<std::size_t>(k)][leg] = standing_ || phase < timing_.duty;
+      const double ahead = phase_[leg] + k * stage_s / timing_.period_s;
+      // While stopping, a foot that is down stays down.
+      const bool stays = !walking_ && (plan.stance[leg] || ahead >= 1.0);
+      plan.stage_stance[static_cast<std::size_t>(k)][leg] =
+          standing_ || stays || Fraction(ahead) < timing_.duty;
     }
   }
   return plan;

@@ -52,7 +52,7 @@ class PhaseEngine {
 
   GaitTiming timing_;
   LegArray<double> phase_{0.0};
-  bool standing_ = true;
+  bool standing_ = true, walking_ = false;
 };
 
 }  // namespace scoria::controller

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "controller/mpc/convex_mpc.h"
 
+#include <algorithm>
+
 #include <Eigen/LU>
 
 #include "core/math/so3.h"
@@ -20,16 +22,15 @@ Vec12 StateOf(const Vec3& rpy, const Vec3& p, const Vec3& w, const Vec3& v) noex
   return x;
 }
 
-Mat3 GroundFrame(const Vec3& n_W, double yaw_rad) noexcept {
-  const Vec3 heading(std::cos(yaw_rad), std::sin(yaw_rad), 0.0);
-  Mat3 R;
-  R.col(2) = n_W;
-  R.col(0) = (heading - heading.dot(n_W) * n_W).normalized();
-  R.col(1) = R.col(2).cross(R.col(0));
-  return R;
-}
-
 }  // namespace
+
+bool MpcInput::StandsAt(Leg leg, int stage) const noexcept {
+  if (stage == 0) return legs.InContact(leg);
+  if (legs.mode[leg] == LegMode::kEarlyContact &&
+      stage * contacts.dt_s < contacts.swing_remaining_s[leg])
+    return true;
+  return contacts.stage_stance[static_cast<std::size_t>(stage)][leg];
+}
 
 ConvexMpc::ConvexMpc(const MpcParams& params, const core::RobotDescription& robot,
                      double gravity_mps2)
@@ -77,9 +78,9 @@ void ConvexMpc::Build(const MpcInput& in) noexcept {
     stage.r.setZero();
     stage.B.setZero();
     for (const Leg leg : kLegs) {
-      stage.stance[leg] = k == 0 ? in.legs.InContact(leg) : in.contacts.stage_stance[i][leg];
+      stage.stance[leg] = in.StandsAt(leg, k);
       if (!stage.stance[leg]) continue;
-      const Vec3 foot = k == 0 ? wb.p_WF[leg] : in.footholds.stage[i][leg];
+      const Vec3& foot = in.footholds.stage[i][leg];
       const Vec3 r = foot + contact_offset - p_WC;
       const int column = 3 * static_cast<int>(leg);
       stage.B.block<3, 3>(6, column) = dt * I_inverse * core::Skew(r) * R_WT_;
@@ -92,21 +93,24 @@ ForcePlan ConvexMpc::ToPlan() const noexcept {
   ForcePlan plan;
   plan.valid = true;
   plan.dt_s = params_.stage_s;
-  for (const Leg leg : kLegs) {
-    const int at = 3 * static_cast<int>(leg);
-    plan.f_F_W[leg] = R_WT_ * solution_.u[0].segment<3>(at);
-    plan.f_next_F_W[leg].setZero();
-    for (int k = 0; k < params_.horizon; ++k) {
-      const auto i = static_cast<std::size_t>(k);
-      if (k < 2) plan.stance[i][leg] = qp_.stages[i].stance[leg];
-      if (plan.f_next_F_W[leg].isZero() && qp_.stages[i].stance[leg]) {
-        plan.f_next_F_W[leg] = R_WT_ * solution_.u[i].segment<3>(at);
-      }
+  for (int k = 0; k < ForcePlan::kStages; ++k) {
+    const auto i = static_cast<std::size_t>(
+        std::min(k, params_.horizon - 1));  // a shorter horizon repeats its last stage
+    const auto to = static_cast<std::size_t>(k);
+    const Vec12& x = solution_.x[i];
+    plan.body[to] = {x.segment<3>(0), x.segment<3>(3), x.segment<3>(6), x.segment<3>(9)};
+    plan.stance[to] = qp_.stages[i].stance;
+    for (const Leg leg : kLegs) {
+      plan.f_F_W[to][leg] = R_WT_ * solution_.u[i].segment<3>(3 * static_cast<int>(leg));
     }
   }
-  for (std::size_t k = 0; k < 2; ++k) {
-    const Vec12& x = solution_.x[k];
-    plan.body[k] = {x.segment<3>(0), x.segment<3>(3), x.segment<3>(6), x.segment<3>(9)};
+  for (const Leg leg : kLegs) {
+    for (int k = 0; k < params_.horizon; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      if (!qp_.stages[i].stance[leg]) continue;
+      plan.f_next_F_W[leg] = R_WT_ * solution_.u[i].segment<3>(3 * static_cast<int>(leg));
+      break;
+    }
   }
   return plan;
 }

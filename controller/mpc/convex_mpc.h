@@ -51,6 +51,9 @@ struct MpcParams {
              .doc = "a result is used this many MPC ticks after its state was taken"});
     a.Field("solver", solver);
   }
+  [[nodiscard]] std::string Problem() const {
+    return f_min_N < f_max_N ? "" : "f_min_N must be below f_max_N";
+  }
 };
 
 struct MpcInput {
@@ -59,6 +62,10 @@ struct MpcInput {
   const LegPhases& legs;  // who stands now
   const BodyReference& reference;
   const FootholdPlan& footholds;
+
+  /// Who bears force at a stage: at first who stands now, then the plan; a foot that touched early
+  /// stands on.
+  [[nodiscard]] bool StandsAt(Leg leg, int stage) const noexcept;
 };
 
 struct MpcResult {

@@ -31,6 +31,7 @@ const LegPhases& LegStateMachine::Update(const ContactPlan& plan, const LegArray
     }
     legs_.swing_progress[leg] = progress;
     const LegMode mode = Next(legs_.mode[leg], plan.stance[leg], contact[leg], progress);
+    if (mode == LegMode::kEarlyContact && legs_.mode[leg] != mode) ++early_contacts_;
     legs_.late_s[leg] = mode == LegMode::kLateContact ? legs_.late_s[leg] + dt_s : 0.0;
     legs_.mode[leg] = mode;
     if (mode == LegMode::kStance) legs_.swing_progress[leg] = 0.0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string_view>
 #include <utility>
 
@@ -45,12 +46,16 @@ class LegStateMachine {
   [[nodiscard]] const LegPhases& Update(const ContactPlan& plan, const LegArray<bool>& contact,
                                         double age_s, double dt_s) noexcept;
 
+  /// Early contacts since the start.
+  [[nodiscard]] std::uint32_t early_contacts() const noexcept { return early_contacts_; }
+
  private:
   [[nodiscard]] LegMode Next(LegMode mode, bool planned_stance, bool touching,
                              double progress) const noexcept;
 
   LegStateParams params_;
   LegPhases legs_;
+  std::uint32_t early_contacts_ = 0;
 };
 
 }  // namespace scoria::controller

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "controller/swing/reach.h"
 #include "core/math/so3.h"
 
 namespace scoria::controller {
@@ -15,47 +16,51 @@ FootholdPlanner::FootholdPlanner(const FootholdParams& params, const core::Robot
       gravity_mps2_(gravity_mps2),
       velocity_(params.velocity_filter_samples) {}
 
-Vec3 FootholdPlanner::Foothold(Leg leg, const Vec3& p_WB_touchdown, double yaw_rad, const Vec3& v_W,
-                               const BodyReference::Stage& reference, double stance_s,
-                               double height_m, const GroundPlane& plane) const noexcept {
-  const Vec3 neutral = p_WB_touchdown + core::RotationZ(yaw_rad) * robot_.NeutralFoothold(leg);
-  Vec3 reach = 0.5 * stance_s * v_W + params_.velocity_gain_s * (v_W - reference.v_WC) +
-               0.5 * std::sqrt(std::max(height_m, 0.0) / gravity_mps2_) * v_W.cross(reference.w_WB);
+/// The body keeps to the reference velocity from where it is; the step is symmetric about the
+/// middle of its stance, also when turning.
+Vec3 FootholdPlanner::TouchdownAfter(const Tick& t, Leg leg, double delay_s) const noexcept {
+  const double stance_s = t.contacts.stance_s[leg];
+  const Vec3 p_WB = t.wb.state.p_WB + t.reference.v_WC * delay_s;
+  const Mat3 R_WH = core::RotationZ(t.yaw_rad + t.reference.w_WB.z() * (delay_s + 0.5 * stance_s));
+  Vec3 reach =
+      0.5 * stance_s * t.v_W + params_.velocity_gain_s * (t.v_W - t.reference.v_WC) +
+      0.5 * std::sqrt(std::max(t.height_m, 0.0) / gravity_mps2_) * t.v_W.cross(t.reference.w_WB);
   reach.z() = 0.0;
   if (reach.norm() > params_.max_reach_m) reach *= params_.max_reach_m / reach.norm();
-  Vec3 p_WF = neutral + reach;
-  p_WF.z() = plane.Height(p_WF) + robot_.legs[leg].foot_radius_m;
-  return p_WF;
+  Vec3 p_WF = p_WB + R_WH * robot_.NeutralFoothold(leg) + reach;
+  p_WF.z() = t.plane.Height(p_WF) + robot_.legs[leg].foot_radius_m;
+  return ClipToReach(robot_, leg, p_WB, R_WH, p_WF);
 }
 
 FootholdPlan FootholdPlanner::Plan(const WholeBody& wb, const ContactPlan& contacts,
-                                   const BodyReference& reference,
+                                   const LegPhases& legs, const BodyReference& reference,
                                    const GroundPlane& plane) noexcept {
-  const Vec3 v_W = velocity_.Update(wb.v_WC);
-  const double height_m = wb.p_WC.z() - plane.Height(wb.p_WC);
-  const double yaw = core::RpyFromRotation(wb.state.R_WB).z();
+  const Tick tick{wb,
+                  contacts,
+                  reference.stages[0],
+                  plane,
+                  velocity_.Update(wb.v_WC),
+                  wb.p_WC.z() - plane.Height(wb.p_WC),
+                  core::RpyFromRotation(wb.state.R_WB).z()};
   FootholdPlan plan;
   for (const Leg leg : kLegs) {
-    const auto touchdown_after = [&](double delay_s) {
-      // The body keeps to the reference velocity from where it is.
-      const BodyReference::Stage& now = reference.stages[0];
-      const Vec3 p_WB = wb.state.p_WB + now.v_WC * delay_s;
-      // Symmetric about the middle of the stance that follows, also when turning.
-      const double mid_stance_s = delay_s + 0.5 * contacts.stance_s[leg];
-      return Foothold(leg, p_WB, yaw + now.w_WB.z() * mid_stance_s, v_W, now,
-                      contacts.stance_s[leg], height_m, plane);
-    };
-    const double next_swing_s =
-        contacts.stance[leg]
-            ? (contacts.duty[leg] - contacts.phase[leg]) * contacts.period_s + contacts.swing_s[leg]
-            : contacts.swing_remaining_s[leg];
-    plan.next[leg] = contacts.standing ? wb.p_WF[leg] : touchdown_after(next_swing_s);
-    Vec3 foothold = contacts.stance[leg] ? wb.p_WF[leg] : plan.next[leg];
-    bool was_stance = true;
+    const double remaining_stance_s =
+        (contacts.duty[leg] - contacts.phase[leg]) * contacts.period_s;
+    const double next_s = contacts.stance[leg] ? remaining_stance_s + contacts.swing_s[leg]
+                                               : contacts.swing_remaining_s[leg];
+    plan.next[leg] = contacts.standing ? wb.p_WF[leg] : TouchdownAfter(tick, leg, next_s);
+    // Stands here, or is in the air: until its first lift-off or touchdown in the plan.
+    bool was_stance = legs.InContact(leg) || contacts.stance[leg];
+    Vec3 foothold = was_stance ? wb.p_WF[leg] : plan.next[leg];
+    int touchdowns = 0;
     for (int k = 0; k < contacts.horizon; ++k) {
       const auto i = static_cast<std::size_t>(k);
-      const bool stance = contacts.stage_stance[i][leg];
-      if (stance && !was_stance) foothold = touchdown_after(k * contacts.dt_s);
+      const bool waits = legs.mode[leg] == LegMode::kEarlyContact &&
+                         k * contacts.dt_s < contacts.swing_remaining_s[leg];
+      const bool stance = waits || contacts.stage_stance[i][leg];
+      if (stance && !was_stance)
+        foothold =
+            touchdowns++ == 0 ? plan.next[leg] : TouchdownAfter(tick, leg, k * contacts.dt_s);
       plan.stage[i][leg] = foothold;
       was_stance = stance;
     }

@@ -32,13 +32,20 @@ class FootholdPlanner {
                   double gravity_mps2) noexcept;
 
   [[nodiscard]] FootholdPlan Plan(const WholeBody& wb, const ContactPlan& contacts,
-                                  const BodyReference& reference,
+                                  const LegPhases& legs, const BodyReference& reference,
                                   const GroundPlane& plane) noexcept;
 
  private:
-  [[nodiscard]] Vec3 Foothold(Leg leg, const Vec3& p_WB_touchdown, double yaw_rad, const Vec3& v_W,
-                              const BodyReference::Stage& reference, double stance_s,
-                              double height_m, const GroundPlane& plane) const noexcept;
+  /// What one tick's footholds have in common.
+  struct Tick {
+    const WholeBody& wb;
+    const ContactPlan& contacts;
+    const BodyReference::Stage& reference;
+    const GroundPlane& plane;
+    Vec3 v_W;  // filtered velocity of the COM
+    double height_m, yaw_rad;
+  };
+  [[nodiscard]] Vec3 TouchdownAfter(const Tick& tick, Leg leg, double delay_s) const noexcept;
 
   static constexpr int kMaxSamples = 100;
   FootholdParams params_;

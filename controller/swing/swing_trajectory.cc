@@ -2,6 +2,9 @@
 #include "controller/swing/swing_trajectory.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "controller/swing/reach.h"
 
 namespace scoria::controller {
 namespace {
@@ -20,21 +23,21 @@ FootTargets SwingTrajectory::Plan(const WholeBody& wb, const LegPhases& legs,
   FootTargets targets;
   for (const Leg leg : kLegs) {
     FootTarget& target = targets[leg];
+    const LegMode mode = legs.mode[leg], last_mode = std::exchange(last_mode_[leg], mode);
     if (legs.InContact(leg)) {
-      swinging_[leg] = false;
       target.p_WF = wb.p_WF[leg];
       continue;
     }
     const double s = std::clamp(legs.swing_progress[leg], 0.0, 1.0);
-    if (!swinging_[leg]) {
-      swinging_[leg] = true;
+    if (mode == LegMode::kSwing && last_mode != LegMode::kSwing) {
       lift_off_W_[leg] = wb.p_WF[leg];
       goal_W_[leg] = footholds.next[leg];
     }
     if (s <= params_.retarget_until) goal_W_[leg] = footholds.next[leg];
     const Vec3 &from = lift_off_W_[leg], &to = goal_W_[leg];
-    if (legs.mode[leg] == LegMode::kLateContact) {
-      target.p_WF = to - Vec3(0.0, 0.0, params_.lower_speed_mps * legs.late_s[leg]);
+    if (mode == LegMode::kLateContact) {
+      const Vec3 below = to - Vec3(0.0, 0.0, params_.lower_speed_mps * legs.late_s[leg]);
+      target.p_WF = ClipToReach(robot_, leg, wb.state.p_WB, wb.state.R_WB, below);
       target.v_WF = {0.0, 0.0, -params_.lower_speed_mps};
       continue;
     }

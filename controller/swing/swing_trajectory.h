@@ -27,16 +27,19 @@ struct SwingParams {
 /// leg controller; polynomials as the reference's (3s² − 2s³).
 class SwingTrajectory {
  public:
-  explicit SwingTrajectory(const SwingParams& params) noexcept : params_(params) {}
+  /// `robot` is borrowed.
+  SwingTrajectory(const SwingParams& params, const core::RobotDescription& robot) noexcept
+      : params_(params), robot_(robot) {}
 
   [[nodiscard]] FootTargets Plan(const WholeBody& wb, const LegPhases& legs,
                                  const FootholdPlan& footholds) noexcept;
 
  private:
   SwingParams params_;
+  const core::RobotDescription& robot_;
   LegArray<Vec3> lift_off_W_ = ZeroPerLeg();
   LegArray<Vec3> goal_W_ = ZeroPerLeg();
-  LegArray<bool> swinging_;
+  LegArray<LegMode> last_mode_{LegMode::kStance};
 };
 
 }  // namespace scoria::controller

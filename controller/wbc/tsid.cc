@@ -23,22 +23,20 @@ Mat3 SafeInverse(const Mat3& J) noexcept {
   return J.transpose() * A.inverse();
 }
 
-/// Body target between the first two MPC states.
+/// Body target on the MPC's predicted motion.
 BodyReference::Stage Interpolate(const ForcePlan& plan, double ahead_s) noexcept {
-  const double s = std::clamp(ahead_s / plan.dt_s, 0.0, 1.0);
+  const double at = std::clamp(ahead_s / plan.dt_s, 0.0, ForcePlan::kStages - 1.001);
+  const auto k = static_cast<std::size_t>(at);
+  const double s = at - static_cast<double>(k);
   const auto mix = [s](const Vec3& a, const Vec3& b) { return Vec3(a + s * (b - a)); };
-  const BodyReference::Stage &a = plan.body[0], &b = plan.body[1];
+  const BodyReference::Stage &a = plan.body[k], &b = plan.body[k + 1];
   return {mix(a.rpy_rad, b.rpy_rad), mix(a.p_WC, b.p_WC), mix(a.w_WB, b.w_WB), mix(a.v_WC, b.v_WC)};
 }
 
 }  // namespace
 
-TsidNullspace::TsidNullspace(const TsidParams& params, const core::RobotDescription& robot,
-                             double gravity_mps2)
-    : params_(params),
-      robot_(robot),
-      effort_Nm_(robot.EffortLimits()),
-      gravity_mps2_(gravity_mps2) {}
+TsidNullspace::TsidNullspace(const TsidParams& params, const core::RobotDescription& robot)
+    : params_(params), robot_(robot), effort_Nm_(robot.EffortLimits()) {}
 
 /// With qdd_l = J⁻¹(a_c − J_B a) in stance legs, the trunk's equation of motion becomes
 ///   (H_BB − Σ X_l J_Bl) a = Σ J_Blᵀ f_l − Σ_swing H_Bl qdd_l − h_B − Σ X_l a_c,l,   X_l = H_Bl
@@ -102,14 +100,14 @@ void TsidNullspace::AddTasks(const WbcInput& in, const BodyReference::Stage& tar
   g_.setZero();
 
   // Feed-forward acceleration of the MPC's forces, and the COM's acceleration Σ f / m + g.
+  const LegArray<Vec3> f_planned = in.forces.ForcesFor(in.legs.Contacts(), in.n_W);
   Vec3 f_sum = Vec3::Zero(), t_sum = Vec3::Zero();
   Mat3x12 com = Mat3x12::Zero();
   for (const Leg leg : kLegs) {
     if (!in.legs.InContact(leg)) continue;
     const int at = 3 * static_cast<int>(leg);
     com.middleCols<3>(at) = Mat3::Identity() / wb.mass_kg;
-    const bool planned = in.forces.stance[0][leg];
-    const Vec3& f_desired = planned ? in.forces.f_F_W[leg] : in.forces.f_next_F_W[leg];
+    const Vec3& f_desired = f_planned[leg];
     f_sum += f_desired;
     const Vec3 p_CP_W = wb.p_WF[leg] - robot_.legs[leg].foot_radius_m * in.n_W - wb.p_WC;
     t_sum += p_CP_W.cross(f_desired);
@@ -143,17 +141,15 @@ void TsidNullspace::AddTasks(const WbcInput& in, const BodyReference::Stage& tar
 }
 
 void TsidNullspace::BuildRows(const WbcInput& in, bool torque_limits) noexcept {
-  const Vec3& n = in.n_W;
-  const Vec3 t1 = Vec3::UnitX().cross(n).norm() > 0.1 ? Vec3(Vec3::UnitX().cross(n).normalized())
-                                                      : Vec3::UnitY();
-  const Vec3 t2 = n.cross(t1);
+  const Mat3 R_WT = GroundFrame(in.n_W, core::RpyFromRotation(in.wb.state.R_WB).z());
+  const Vec3 n = R_WT.col(2);
   Eigen::Index row = 0;
   A_.setZero(kMaxRows, kVars);
   b_.setZero(kMaxRows);
   for (const Leg leg : kLegs) {
     if (!in.legs.InContact(leg)) continue;
     const int at = 3 * static_cast<int>(leg);
-    for (const Vec3& t : {t1, t2}) {
+    for (const Vec3& t : {Vec3(R_WT.col(0)), Vec3(R_WT.col(1))}) {
       A_.row(row++).segment<3>(at) = (params_.friction * n - t).transpose();
       A_.row(row++).segment<3>(at) = (params_.friction * n + t).transpose();
     }
@@ -181,14 +177,15 @@ WbcResult TsidNullspace::Solve(const WbcInput& in) noexcept {
   AddTasks(in, result.target);
   BuildRows(in, true);
   solver_.Solve(G_, g_, A_, b_, solution_);
-  if (solution_.status == SolveStatus::kInfeasible) {
+  if (solution_.status != SolveStatus::kOptimal) {
     result.torque_rows_dropped = true;
     BuildRows(in, false);
     solver_.Solve(G_, g_, A_, b_, solution_);
   }
   result.status = solution_.status;
   result.iterations = solution_.iterations;
-  if (!IsUsable(result.status) || !solution_.x.allFinite()) {
+  if (result.status != SolveStatus::kOptimal ||
+      !solution_.x.allFinite()) {  // unfinished dual iterates violate rows
     result.status = SolveStatus::kNumerical;
     return result;
   }

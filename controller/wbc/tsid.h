@@ -40,9 +40,10 @@ struct TsidParams {
         {.min = 0.0, .max = 80.0, .doc = "brakes a slipping foot; unstable near 100 at 500 Hz"});
     a.Field("friction", friction, {.min = 0.05, .max = 2.0, .doc = "assumed, of the pyramid"});
     a.Field("f_min_N", f_min_N, {.min = 0.0, .max = 1e3});
-    a.Field(
-        "target_lead_s", target_lead_s,
-        {.min = 0.0, .max = 0.2, .doc = "how far ahead on the MPC's motion the body target lies"});
+    a.Field("target_lead_s", target_lead_s,
+            {.min = 0.0,
+             .max = 0.2,
+             .doc = "how far ahead on the MPC's predicted motion the body target lies"});
   }
 };
 
@@ -72,7 +73,7 @@ struct WbcResult {
 /// constrained point is the sphere's lowest one, not its centre. Source: paper, whole-body control.
 class TsidNullspace {
  public:
-  TsidNullspace(const TsidParams& params, const core::RobotDescription& robot, double gravity_mps2);
+  TsidNullspace(const TsidParams& params, const core::RobotDescription& robot);
 
   [[nodiscard]] WbcResult Solve(const WbcInput& in) noexcept;
 
@@ -98,7 +99,6 @@ class TsidNullspace {
   TsidParams params_;
   const core::RobotDescription& robot_;
   LegArray<Vec3> effort_Nm_;
-  double gravity_mps2_;
   Reduction z_;
   Mat12 G_;
   Vec12 g_;

@@ -148,6 +148,15 @@ class ConfigReader {
   [[nodiscard]] std::string PathOf(const std::string& key) const {
     return path_.empty() ? key : path_ + "." + key;
   }
+  /// A struct whose fields depend on each other says what is wrong with them in Problem(), empty if
+  /// nothing.
+  template <class T>
+  static void CheckWhole(const ConfigNode& node, const std::string& path, const T& value) {
+    if constexpr (requires { value.Problem(); }) {
+      const std::string problem = value.Problem();
+      if (!problem.empty()) throw ConfigError(node.origin, path, problem);
+    }
+  }
   template <class Variant>
   static void ReadVariant(const ConfigNode& node, const std::string& path, Variant& value);
 
@@ -176,6 +185,7 @@ void ConfigReader::ReadVariant(const ConfigNode& node, const std::string& path, 
     reader.known_.emplace_back("type");
     alternative.Serialize(reader);
     reader.Finish();
+    CheckWhole(node, path, alternative);
     value = std::move(alternative);
   };
   [&]<class... Ts>(const std::variant<Ts...>*) {
@@ -236,6 +246,7 @@ void ConfigReader::Read(const ConfigNode& node, const std::string& path, T& valu
     ConfigReader reader(node, path);
     value.Serialize(reader);
     reader.Finish();
+    CheckWhole(node, path, value);
   }
 }
 

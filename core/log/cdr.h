@@ -56,6 +56,9 @@ inline constexpr bool kIsPrimitive = std::is_arithmetic_v<T> || std::is_same_v<T
 /// "pkg/msg/Name" as schema texts write it: "pkg/Name".
 std::string ShortTypeName(const std::string& type_name);
 
+/// ROS field names are lower case: p_WB_m is p_wb_m on the wire's schema.
+std::string SchemaFieldName(std::string name);
+
 }  // namespace cdr_detail
 
 class CdrEncoder {
@@ -107,7 +110,7 @@ class SchemaWriter {
  public:
   template <class T>
   void operator()(const char* name, T& value) {
-    text_ += FieldType(value) + " " + name + "\n";
+    text_ += FieldType(value) + " " + cdr_detail::SchemaFieldName(name) + "\n";
   }
 
   template <class T>

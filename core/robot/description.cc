@@ -66,6 +66,9 @@ class TreeWalker {
         Fail(config_, "legs", fmt::format("the URDF has no movable joint \"{}\"", name));
       }
     }
+    if (!config_.imu_link.empty() && !imu_on_trunk_) {
+      Fail(config_, "imu_link", fmt::format("the trunk has no link \"{}\"", config_.imu_link));
+    }
     for (const Leg leg : kLegs) {
       if (robot_.legs[leg].foot_radius_m <= 0.0) {
         Fail(config_, "legs",
@@ -83,7 +86,8 @@ class TreeWalker {
       BodyAt(body).name = link.name;
     }
     if (link.inertial) AddInertia(link, body, X_L);
-    if (link.name == config_.imu_link) {
+    if (link.name == config_.imu_link && body == 0) {
+      imu_on_trunk_ = true;
       robot_.p_BS = X_L.p;
       robot_.R_BS = X_L.R;
     }
@@ -185,6 +189,7 @@ class TreeWalker {
   RobotDescription& robot_;
   std::map<std::string, int> joint_index_, seen_;
   std::map<std::string, Leg> foot_leg_;
+  bool imu_on_trunk_ = false;
 };
 
 }  // namespace

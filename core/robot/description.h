@@ -138,7 +138,7 @@ struct RobotDescription {
   [[nodiscard]] double total_mass_kg() const;
   /// Neutral foothold in the trunk frame at z = 0: below the hip, widened by the abduction link.
   [[nodiscard]] Vec3 NeutralFoothold(Leg leg) const;
-  /// Smallest effort limits per joint, N m, as LegArray of (HAA, HFE, KFE).
+  /// Effort limits, N m, as LegArray of (HAA, HFE, KFE).
   [[nodiscard]] LegArray<Vec3> EffortLimits() const;
   [[nodiscard]] const Body& body(int index) const;
 };

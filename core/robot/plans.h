@@ -61,15 +61,26 @@ struct FootholdPlan {
   std::array<LegArray<Vec3>, kMaxHorizon> stage;
 };
 
-/// Ground forces on the feet and the body motion that they produce, from the MPC.
+/// Ground forces on the feet and the body motion that they produce, from the MPC: the first stages
+/// of its horizon.
 struct ForcePlan {
-  LegArray<Vec3> f_F_W = ZeroPerLeg();       // N, first stage
-  std::array<LegArray<bool>, 2> stance;      // the contact set the first two stages were solved for
+  static constexpr int kStages = 4;
+  std::array<LegArray<Vec3>, kStages> f_F_W;       // N, held over each stage
+  std::array<LegArray<bool>, kStages> stance;      // the contact set each stage was solved for
+  std::array<BodyReference::Stage, kStages> body;  // predicted body at the start of each stage
   LegArray<Vec3> f_next_F_W = ZeroPerLeg();  // N, the first stage at which each foot is in stance
-  std::array<BodyReference::Stage, 2> body;  // predicted body at stages 0 and 1
   double dt_s = 0.05;
   bool valid = false;
+
+  /// Forces for the feet that stand now: those of the first stage with that very contact set, else
+  /// each foot's next force, scaled so that their sum along `n_W` is that of the first stage.
+  [[nodiscard]] LegArray<Vec3> ForcesFor(const LegArray<bool>& contact,
+                                         const Vec3& n_W) const noexcept;
 };
+
+/// Axes of the ground: z along its normal, x along the heading. Friction pyramids are aligned with
+/// it.
+[[nodiscard]] Mat3 GroundFrame(const Vec3& n_W, double yaw_rad) noexcept;
 
 enum class LegMode { kStance, kSwing, kEarlyContact, kLateContact };
 
@@ -81,6 +92,9 @@ struct LegPhases {
   LegArray<double> late_s;  // how long a late foot has been waited for
   [[nodiscard]] bool InContact(Leg leg) const noexcept {
     return mode[leg] == LegMode::kStance || mode[leg] == LegMode::kEarlyContact;
+  }
+  [[nodiscard]] LegArray<bool> Contacts() const noexcept {
+    return {InContact(Leg::kFL), InContact(Leg::kFR), InContact(Leg::kHL), InContact(Leg::kHR)};
   }
 };
 

@@ -24,8 +24,8 @@ SensorFrame Sensors::Read(const Truth& truth, const LegArray<Vec3>& motor_tau_Nm
   SensorFrame::Truth given;
   given.state = s;
   for (const Leg leg : kLegs) {
-    z.foot_force_N[leg] = robot_.config.has_foot_sensors ? truth.f_F_W[leg].norm() : 0.0;
-    given.contact[leg] = truth.f_F_W[leg].z() > kTrueContactForce_N;
+    z.foot_force_N[leg] = robot_.config.has_foot_sensors ? truth.f_normal_N[leg] : 0.0;
+    given.contact[leg] = truth.f_normal_N[leg] > kTrueContactForce_N;
   }
   if (give_truth) z.truth = given;
   return z;

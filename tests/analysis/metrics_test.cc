@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "analysis/metrics.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace scoria::analysis {
+namespace {
+
+/// A made-up walk along +x at a constant speed with constant power.
+class Walk {
+ public:
+  explicit Walk(double v_mps) : v_(v_mps) {
+    row_.operating = true;
+    row_.total_mass_kg = 10.0;
+    row_.cmd_v_x_mps = 0.5;
+    row_.period_s = 0.5;
+    row_.segment = 1;
+    row_.com_z_m = 0.31;
+    row_.ref_p_WC_m = {0.0, 0.0, 0.30};
+  }
+  void Run(MetricsAccumulator& m, double seconds) {
+    for (int i = 0; i < std::lround(seconds * 500); ++i) {
+      m.AddRow(row_, {1e-4, 1e-5});
+      row_.time_s += 0.002;
+      row_.p_WB_m[0] += 0.002 * v_;
+      row_.v_WB_mps[0] = v_;
+      row_.mech_abs_J += 0.002 * 49.05;  // W
+      row_.mech_pos_J += 0.002 * 20.0;
+      row_.electrical_J += 0.002 * 100.0;
+    }
+  }
+  core::LogRow row_;
+
+ private:
+  double v_;
+};
+
+TEST(Metrics, ConstantWalkGivesItsOwnNumbers) {
+  MetricsAccumulator m(9.81);
+  Walk walk(0.6);
+  walk.Run(m, 20.0);
+  const EpisodeMetrics r = m.Finish();
+  EXPECT_NEAR(r.distance_m, 12.0, 0.31);  // whole half-second chords
+  EXPECT_NEAR(r.cot_mech_abs, 49.05 / (10.0 * 9.81 * 0.6), 0.03);
+  ASSERT_EQ(r.windows.size(), 3u);  // 3 s to settle, then whole windows of 5 s
+  EXPECT_NEAR(r.windows[0].v_mps, 0.6, 1e-3);
+  EXPECT_NEAR(r.windows[0].cot_mech_abs, 49.05 / (10.0 * 9.81 * 0.6), 1e-3);
+  EXPECT_NEAR(r.tracking.velocity_rmse_mps, 0.1, 1e-6);
+  EXPECT_NEAR(r.tracking.height_rmse_m, 0.01, 1e-9);
+  EXPECT_NEAR(r.mpc.median_s, 1e-4, 1e-12);
+}
+
+TEST(Metrics, PlacementsAndFallsAreNotWalking) {
+  MetricsAccumulator m(9.81);
+  Walk walk(0.5);
+  walk.Run(m, 10.0);
+  walk.row_.fallen = true;
+  walk.Run(m, 1.0);
+  walk.row_.fallen = false;
+  walk.row_.segment = 2;
+  walk.row_.p_WB_m[0] += 100.0;  // carried away
+  walk.Run(m, 10.0);
+  const EpisodeMetrics r = m.Finish();
+  EXPECT_NEAR(r.distance_m, 10.0, 0.6);
+  EXPECT_NEAR(r.walking_s, 20.0, 0.1);
+}
+
+TEST(Metrics, SpeedRippleWithinAStrideIsNoError) {
+  MetricsAccumulator m(9.81);
+  Walk walk(0.5);
+  for (int i = 0; i < 5000; ++i) {
+    walk.row_.time_s = 0.002 * i;
+    walk.row_.p_WB_m[0] = 0.5 * walk.row_.time_s;
+    walk.row_.v_WB_mps[0] = 0.5 + 0.1 * std::sin(2.0 * M_PI * walk.row_.time_s / 0.25);
+    m.AddRow(walk.row_, {});
+  }
+  EXPECT_LT(m.Finish().tracking.velocity_rmse_mps, 2e-3);
+}
+
+TEST(Metrics, StandingDriftIsTheLargestDistance) {
+  MetricsAccumulator m(9.81);
+  Walk walk(0.001);
+  walk.row_.cmd_v_x_mps = 0.0;
+  walk.Run(m, 13.0);
+  EXPECT_NEAR(m.Finish().tracking.drift_m, 0.01, 2e-4);
+}
+
+TEST(Metrics, SurviveTheJsonRoundTrip) {
+  MetricsAccumulator m(9.81);
+  Walk walk(0.4);
+  walk.Run(m, 12.0);
+  m.AddFall(3.5, "tilt at x 1 m");
+  const EpisodeMetrics r = m.Finish();
+  const nlohmann::json j = r;
+  EXPECT_EQ(nlohmann::json(j.get<EpisodeMetrics>()), j);
+}
+
+}  // namespace
+}  // namespace scoria::analysis

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "analysis/stats.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace scoria::analysis {
+namespace {
+
+// The paper's headline, two falls in 267 m, has an exact interval of 37 to 1102 m per fall (peer
+// survey, section 0).
+TEST(Rate, GarwoodIntervalOfThePapersHeadline) {
+  const RateEstimate e = EstimateRate(2, 267.0);
+  EXPECT_NEAR(1.0 / e.rate, 133.5, 1e-9);
+  EXPECT_NEAR(1.0 / e.interval.high, 37.0, 0.1);
+  EXPECT_NEAR(1.0 / e.interval.low, 1102.0, 2.0);
+}
+
+TEST(Rate, NoEventGivesTheRuleOfThree) {
+  const RateEstimate e = EstimateRate(0, 100.0);
+  EXPECT_EQ(e.interval.low, 0.0);
+  EXPECT_NEAR(e.interval.high, 0.03689, 1e-4);  // -ln(0.025) / 100
+}
+
+TEST(Ratio, AgreesWithTheBinomialTestByHand) {
+  // 1 against 9 events at equal exposure: two-sided p = 2 (C(10,0) + C(10,1)) / 2^10 = 22 / 1024.
+  const RatioEstimate r = EstimateRateRatio(EstimateRate(1, 50.0), EstimateRate(9, 50.0));
+  EXPECT_NEAR(r.ratio, 1.0 / 9.0, 1e-12);
+  EXPECT_NEAR(r.p_value, 22.0 / 1024.0, 1e-12);
+  // Clopper-Pearson for 1 of 10: 0.002529 to 0.445016.
+  EXPECT_NEAR(r.interval.low, 0.002529 / (1 - 0.002529), 1e-5);
+  EXPECT_NEAR(r.interval.high, 0.445016 / (1 - 0.445016), 1e-5);
+  const RatioEstimate back = EstimateRateRatio(EstimateRate(9, 50.0), EstimateRate(1, 50.0));
+  EXPECT_NEAR(back.interval.high, 1.0 / r.interval.low, 1e-6);
+}
+
+TEST(Ratio, ZeroCountsAreHandled) {
+  EXPECT_TRUE(std::isnan(EstimateRateRatio(EstimateRate(0, 10.0), EstimateRate(0, 10.0)).ratio));
+  const RatioEstimate r = EstimateRateRatio(EstimateRate(0, 10.0), EstimateRate(6, 10.0));
+  EXPECT_EQ(r.ratio, 0.0);
+  EXPECT_LT(r.interval.high, 1.0);
+  EXPECT_TRUE(
+      std::isinf(EstimateRateRatio(EstimateRate(6, 10.0), EstimateRate(0, 10.0)).interval.high));
+}
+
+TEST(Dispersion, SeesTerrainsThatDiffer) {
+  const std::vector<double> metres = {50, 50, 50, 50};
+  const std::vector<long> even = {5, 4, 6, 5}, uneven = {0, 0, 20, 0};
+  EXPECT_GT(CheckDispersion(even, metres).p_value, 0.5);
+  EXPECT_LT(CheckDispersion(uneven, metres).p_value, 1e-6);
+}
+
+TEST(Bootstrap, BracketsTheRatioAndRepeats) {
+  const std::vector<PairedCounts> terrains = {
+      {2, 4, 50, 50}, {3, 7, 50, 50}, {1, 2, 50, 50}, {4, 8, 50, 50}, {2, 3, 50, 50}};
+  const Interval a = BootstrapRateRatio(terrains, 1), b = BootstrapRateRatio(terrains, 1);
+  EXPECT_LT(a.low, 0.5);
+  EXPECT_GT(a.high, 0.5);
+  EXPECT_LT(a.high, 1.0);
+  EXPECT_EQ(a.low, b.low);
+}
+
+// Detecting a factor of two at one fall per 133.5 m needs about 3 km per arm (peer survey, section
+// 0).
+TEST(Power, AgreesWithTheSurveysBudget) {
+  EXPECT_NEAR(DetectableRatio(1.0 / 133.5, 3100.0), 2.0, 0.15);
+  EXPECT_TRUE(std::isinf(DetectableRatio(0.0, 100.0)));
+}
+
+TEST(CostCurve, RecoversItsOwnCurve) {
+  std::vector<double> x, y;
+  for (int i = 1; i <= 30; ++i) {
+    x.push_back(0.05 * i);
+    y.push_back(0.2 / x.back() + 0.5 + 0.3 * x.back());
+  }
+  const CurveFit fit = FitCostCurve(x, y, 3, 1);
+  ASSERT_TRUE(fit.valid);
+  EXPECT_NEAR(fit.a, 0.2, 1e-9);
+  EXPECT_NEAR(fit.b, 0.5, 1e-9);
+  EXPECT_NEAR(fit.c, 0.3, 1e-9);
+  EXPECT_NEAR(fit.r2, 1.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace scoria::analysis

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstdlib>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "app/campaign.h"
+#include "app/episode_files.h"
+#include "app/verify.h"
+#include "core/log/messages.h"
+#include "terrains/generator.h"
+#include "tests/support/robots.h"
+
+namespace scoria::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+Scenario ShortScenario() {
+  return test::LoadScenario("rough", {"terrain.size_m=25.6", "operator.distance_m=2",
+                                      "duration_s=8", "terrain.roughness_scale=1.3"});
+}
+
+EpisodeReport RunInto(const Scenario& scenario, const fs::path& folder) {
+  RunOptions options;
+  options.folder = folder;
+  return RunToFolder(scenario, options);
+}
+
+TEST(Determinism, SameBitsWithAndWithoutLog) {
+  const test::TemporaryFolder folder;
+  Scenario scenario = ShortScenario();
+  const auto full = RunInto(scenario, folder.path() / "full").result.state_hash;
+  EXPECT_EQ(RunInto(scenario, folder.path() / "again").result.state_hash, full);
+  scenario.log.keep = KeepLog::kMetrics;
+  EXPECT_EQ(RunInto(scenario, folder.path() / "metrics").result.state_hash, full);
+  const core::RobotDescription robot = core::LoadRobot(scenario.robot);
+  const terrains::Heightfield ground =
+      terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);
+  EXPECT_EQ(RunEpisode(scenario, robot, ground, {}).state_hash, full);
+  scenario.seed = 2;
+  EXPECT_NE(RunInto(scenario, folder.path() / "other").result.state_hash, full);
+}
+
+/// Hash of every episode of a campaign folder.
+std::map<std::string, std::string> Hashes(const fs::path& folder) {
+  std::map<std::string, std::string> hashes;
+  for (const auto& entry : fs::directory_iterator(folder / "episodes")) {
+    std::ifstream in(entry.path() / "result.json");
+    hashes[entry.path().filename().string()] = nlohmann::json::parse(in).at("state_hash");
+  }
+  return hashes;
+}
+
+Campaign SmallCampaign(const fs::path& folder) {
+  std::ofstream(folder / "c.yaml")
+      << "name: small\nseeds: 2\nscenario:\n  base: "
+      << test::SourcePath("scenarios/rough.yaml").string()
+      << "\n  terrain: {size_m: 25.6}\n  duration_s: 5\n  log: {keep: falls}\n"
+         "arms:\n  - {name: ags, set: {controller: {gait: {type: ags}}}}\n"
+         "  - {name: sgs, set: {controller: {gait: {type: sgs}}}}\n";
+  return LoadCampaign(folder / "c.yaml", {});
+}
+
+TEST(Determinism, OneAndTwoWorkersGiveTheSameBits) {
+  const test::TemporaryFolder folder;
+  const Campaign campaign = SmallCampaign(folder.path());
+  CampaignOptions options;
+  options.program = SCORIA_PROGRAM;
+  options.folder = folder.path() / "one";
+  options.workers = 1;
+  EXPECT_EQ(RunCampaign(campaign, options).crashed, 0);
+  options.folder = folder.path() / "two";
+  options.workers = 2;
+  EXPECT_EQ(RunCampaign(campaign, options).crashed, 0);
+  const auto hashes = Hashes(folder.path() / "one");
+  EXPECT_EQ(hashes.size(), 4u);
+  EXPECT_EQ(hashes, Hashes(folder.path() / "two"));
+  EXPECT_EQ(RunCampaign(campaign, options).done_before, 4)
+      << "a finished campaign is not walked again";
+}
+
+TEST(Campaign, DeadWorkerIsAnOutcomeNotTheEnd) {
+  const test::TemporaryFolder folder;
+  const Campaign campaign = SmallCampaign(folder.path());
+  CampaignOptions options;
+  options.program = "/bin/false";
+  options.folder = folder.path() / "dead";
+  const CampaignOutcome outcome = RunCampaign(campaign, options);
+  EXPECT_EQ(outcome.crashed, 4);
+  std::ifstream in(options.folder / "episodes" / "ags-s1" / "result.json");
+  EXPECT_EQ(nlohmann::json::parse(in).at("end"), "crashed");
+}
+
+TEST(Verify, ProvesALogAndNamesTheFirstDifference) {
+  const test::TemporaryFolder folder;
+  (void)RunInto(ShortScenario(), folder.path());
+  const fs::path log = folder.path() / "log.mcap", altered = folder.path() / "altered.mcap";
+  const VerifyResult good = VerifyLog(log);
+  EXPECT_TRUE(good.identical) << good.difference;
+  EXPECT_GT(good.messages, 1000u);
+
+  // The same log with one number of one message changed.
+  {
+    core::McapWriter writer(altered);
+    writer.AddMetadata(kScenarioMetadata,
+                       core::McapReader(log).ReadMetadata().at(kScenarioMetadata));
+    std::map<std::string, std::uint16_t> channels;
+    core::McapReader(log).ForEachMessage([&](const core::McapReader::Message& m) {
+      if (!channels.contains(m.channel.topic)) {
+        channels[m.channel.topic] =
+            writer.AddChannel(m.channel.topic, m.channel.type_name, m.channel.schema_text);
+      }
+      core::Bytes bytes(m.data.begin(), m.data.end());
+      if (m.channel.topic == "/joint_states" && m.time_ns == 1'500'000'000) {
+        auto joints = core::DecodeCdr<core::msg::JointState>(bytes);
+        joints.velocity[7] += 1e-9;
+        core::EncodeCdr(joints, bytes);
+      }
+      writer.Write(channels[m.channel.topic], m.time_ns, bytes);
+      return true;
+    });
+  }
+  const VerifyResult bad = VerifyLog(altered);
+  EXPECT_FALSE(bad.identical);
+  EXPECT_EQ(bad.difference.find("step 1500 (1.500 s): /joint_states: velocity[7]: the log says "),
+            0u)
+      << bad.difference;
+}
+
+TEST(Verify, TruncatedLogIsComparedAsFarAsItGoes) {
+  const test::TemporaryFolder folder;
+  (void)RunInto(ShortScenario(), folder.path());
+  const fs::path log = folder.path() / "log.mcap";
+  fs::resize_file(log, fs::file_size(log) * 6 / 10);
+  const VerifyResult r = VerifyLog(log);
+  EXPECT_TRUE(r.identical) << r.difference;
+  EXPECT_NE(r.file_problem.find("cut off at byte"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace scoria::app

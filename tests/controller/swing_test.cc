@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "controller/reference/reference_planner.h"
+#include "controller/swing/foothold_planner.h"
+#include "controller/swing/swing_trajectory.h"
+#include "core/math/so3.h"
+#include "tests/support/robots.h"
+
+namespace scoria::controller {
+namespace {
+
+WholeBody Standing(const Vec3& v_WB = Vec3::Zero()) {
+  RobotState s = test::StandingState();
+  s.v_WB = v_WB;
+  WholeBody wb;
+  WholeBodyModel(test::Go2(), 9.81).Calc(s, wb);
+  return wb;
+}
+
+TEST(SwingTrajectory, StartsAndEndsAtRestAndReachesItsApex) {
+  SwingParams params;
+  SwingTrajectory swing(params, test::Go2());
+  const WholeBody wb = Standing();
+  LegPhases legs;
+  legs.mode[Leg::kFL] = LegMode::kSwing;
+  legs.swing_s = LegArray<double>(0.2);
+  FootholdPlan footholds;
+  const Vec3 from = wb.p_WF[Leg::kFL], to = from + Vec3(0.1, 0.02, 0.03);
+  footholds.next[Leg::kFL] = to;
+  double top = -1.0;
+  FootTarget last;
+  for (int i = 0; i <= 1000; ++i) {
+    legs.swing_progress[Leg::kFL] = i / 1000.0;
+    const FootTarget t = swing.Plan(wb, legs, footholds)[Leg::kFL];
+    if (i == 0) {
+      EXPECT_LT((t.p_WF - from).norm() + t.v_WF.norm(), 1e-12);
+    } else {  // velocity is the derivative of position
+      const double dt = 0.2 / 1000.0;
+      EXPECT_LT(((t.p_WF - last.p_WF) / dt - 0.5 * (t.v_WF + last.v_WF)).norm(), 2e-3);
+    }
+    last = t;
+    top = std::max(top, t.p_WF.z());
+  }
+  EXPECT_LT((last.p_WF - to).norm() + last.v_WF.norm(), 1e-12);
+  EXPECT_NEAR(top, to.z() + params.apex_m, 1e-9);
+}
+
+TEST(SwingTrajectory, LateFootGoesDownAtItsSpeed) {
+  SwingParams params;
+  params.lower_speed_mps = 0.3;
+  SwingTrajectory swing(params, test::Go2());
+  const WholeBody wb = Standing();
+  LegPhases legs;
+  legs.mode[Leg::kHR] = LegMode::kSwing;
+  legs.swing_progress[Leg::kHR] = 0.5;
+  FootholdPlan footholds;
+  footholds.next[Leg::kHR] = wb.p_WF[Leg::kHR];
+  (void)swing.Plan(wb, legs, footholds);
+  legs.mode[Leg::kHR] = LegMode::kLateContact;
+  legs.late_s[Leg::kHR] = 0.1;
+  const FootTarget t = swing.Plan(wb, legs, footholds)[Leg::kHR];
+  EXPECT_NEAR(t.p_WF.z(), wb.p_WF[Leg::kHR].z() - 0.03, 1e-12);
+  EXPECT_EQ(t.v_WF, Vec3(0.0, 0.0, -0.3));
+}
+
+TEST(SwingTrajectory, NextSwingAfterALateFootStartsWhereTheFootIs) {
+  SwingTrajectory swing({}, test::Go2());
+  WholeBody wb = Standing();
+  LegPhases legs;
+  FootholdPlan footholds;
+  footholds.next = wb.p_WF;
+  for (const LegMode mode : {LegMode::kSwing, LegMode::kLateContact, LegMode::kSwing}) {
+    legs.mode[Leg::kFL] = mode;
+    legs.swing_progress[Leg::kFL] = mode == LegMode::kLateContact ? 1.0 : 0.0;
+    wb.p_WF[Leg::kFL].x() -= 0.1;  // the body moved on in the meantime
+    const FootTarget t = swing.Plan(wb, legs, footholds)[Leg::kFL];
+    if (mode == LegMode::kSwing) {
+      EXPECT_LT((t.p_WF - wb.p_WF[Leg::kFL]).norm(), 1e-9);
+    }
+  }
+}
+
+TEST(FootholdPlanner, StepsSymmetricallyAtTheCommandedSpeedAndOutwardsWhenPushed) {
+  const double v = 0.4;
+  ContactPlan contacts;
+  contacts.standing = false;
+  contacts.horizon = 4;
+  contacts.duty = LegArray<double>(0.6);
+  contacts.stance_s = LegArray<double>(0.3);
+  contacts.swing_s = LegArray<double>(0.2);
+  contacts.swing_remaining_s = LegArray<double>(0.0);  // about to touch down
+  BodyReference reference;
+  for (auto& stage : reference.stages) stage.v_WC = {v, 0.0, 0.0};
+  const GroundPlane plane;
+  const auto foothold = [&](const Vec3& v_WB, Leg leg) {
+    FootholdPlanner planner({}, test::Go2(), 9.81);
+    const WholeBody wb = Standing(v_WB);
+    return Vec3(planner.Plan(wb, contacts, LegPhases{}, reference, plane).next[leg] -
+                wb.state.p_WB - test::Go2().NeutralFoothold(leg));
+  };
+  const Vec3 step = foothold({v, 0.0, 0.0}, Leg::kFL);
+  EXPECT_NEAR(step.x(), 0.5 * 0.3 * v, 1e-9);  // half a stance ahead
+  EXPECT_NEAR(step.y(), 0.0, 1e-9);
+  EXPECT_GT(foothold({v, 0.3, 0.0}, Leg::kFR).y(), 0.3 * 0.1);  // catches a sideways push
+  // The clip keeps the direction of the step, also to the front.
+  const Vec3 far = foothold({3.0, 0.3, 0.0}, Leg::kFL);
+  EXPECT_NEAR(far.head<2>().norm(), FootholdParams{}.max_reach_m, 1e-9);
+  EXPECT_GT(far.x(), 0.0);
+}
+
+TEST(ReferencePlanner, FollowsTheGroundPlaneAndHoldsStillWhenStanding) {
+  ReferencePlanner planner({}, 0.30);
+  RobotState s = test::StandingState();
+  // All four feet on a plane that rises 0.1 per metre: lift the body's frame by a pitch.
+  WholeBody wb;
+  WholeBodyModel model(test::Go2(), 9.81);
+  model.Calc(s, wb);
+  for (const Leg leg : kLegs) wb.p_WF[leg].z() = 0.022 + 0.1 * wb.p_WF[leg].x();
+  BodyReference reference;
+  for (int i = 0; i < 200; ++i) {
+    planner.ObserveFeet(wb, LegArray<bool>(true), 0.022);
+    reference = planner.Plan(wb, Command{}, 10, 0.05, 0.01);
+  }
+  EXPECT_NEAR(planner.plane().slope.x(), 0.1, 1e-3);
+  EXPECT_NEAR(reference.stages[0].rpy_rad.y(), -0.3 * std::atan(0.1),
+              1e-3);  // nose up on a rising slope
+  EXPECT_NEAR(reference.stages[10].p_WC.x(), reference.stages[0].p_WC.x(), 1e-12);
+  EXPECT_NEAR(reference.stages[0].p_WC.z(), 0.30 + 0.1 * reference.stages[0].p_WC.x(), 2e-3);
+}
+
+}  // namespace
+}  // namespace scoria::controller

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "controller/wbc/tsid.h"
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include "core/math/so3.h"
+#include "tests/support/robots.h"
+
+namespace scoria::controller {
+namespace {
+
+struct Case {
+  WholeBody wb;
+  LegPhases legs;
+  FootTargets feet;
+  ForcePlan forces;
+  Vec3 n_W = Vec3::UnitZ();
+
+  explicit Case(const RobotState& s) {
+    WholeBodyModel(test::Go2(), 9.81).Calc(s, wb);
+    const Vec3 rpy = core::RpyFromRotation(s.R_WB);
+    forces.valid = true;
+    for (auto& body : forces.body) body = {rpy, wb.p_WC, Vec3::Zero(), Vec3::Zero()};
+    forces.stance.fill(LegArray<bool>(true));
+    for (const Leg leg : kLegs) {
+      for (auto& f : forces.f_F_W) f[leg] = {0.0, 0.0, wb.mass_kg * 9.81 / 4.0};
+      forces.f_next_F_W[leg] = forces.f_F_W[0][leg];
+      feet[leg].p_WF = wb.p_WF[leg] + Vec3(0.0, 0.0, 0.02);
+    }
+  }
+  void Swing(Leg leg) { legs.mode[leg] = LegMode::kSwing; }
+  [[nodiscard]] WbcInput input() const { return {wb, legs, feet, forces, 0.0, n_W}; }
+};
+
+/// Accelerations that the whole robot takes under the solution, from the full 18x18 equations of
+/// motion.
+Vec18 Accelerate(const Case& setup, const WbcResult& r) {
+  Vec18 force = -AssembleBias(setup.wb);
+  for (const Leg leg : kLegs) {
+    const int at = 6 + 3 * static_cast<int>(leg);
+    force.segment<3>(at) += r.command.tau_Nm[leg];
+    if (!setup.legs.InContact(leg)) continue;
+    const Vec3 down = -test::Go2().legs[leg].foot_radius_m * setup.n_W;
+    const Vec3 p_BP = setup.wb.p_BF_W[leg] + down;
+    force.head<3>() += r.f_F_W[leg];
+    force.segment<3>(3) += p_BP.cross(r.f_F_W[leg]);
+    const Mat3 J = setup.wb.J_ll[leg] - core::Skew(down) * setup.wb.Jw_ll[leg];
+    force.segment<3>(at) += J.transpose() * r.f_F_W[leg];
+  }
+  return AssembleMassMatrix(setup.wb).ldlt().solve(force);
+}
+
+// The reduction must satisfy what it eliminated: equations of motion and unmoving (rolling)
+// contacts.
+TEST(TsidNullspace, SolutionObeysMotionContactFrictionAndTorque) {
+  core::Rng rng(11, 0, core::Stream::kSensor);
+  TsidParams params;
+  TsidNullspace wbc(params, test::Go2());
+  for (int trial = 0; trial < 60; ++trial) {
+    RobotState s = test::RandomState(rng);
+    s.w_WB *= 0.3;
+    for (const Leg leg : kLegs) s.qd[leg] *= 0.3;
+    Case setup(s);
+    if (trial % 3 != 0) setup.Swing(Leg::kFL);
+    if (trial % 3 == 2) setup.Swing(Leg::kHR);
+    const WbcResult r = wbc.Solve(setup.input());
+    ASSERT_EQ(r.status, SolveStatus::kOptimal) << trial;
+    const Vec18 a = Accelerate(setup, r);
+    for (const Leg leg : kLegs) {
+      const Vec3 limit = test::Go2().EffortLimits()[leg];
+      EXPECT_TRUE((r.command.tau_Nm[leg].cwiseAbs() - limit).maxCoeff() < 1e-9);
+      if (!setup.legs.InContact(leg)) continue;
+      EXPECT_GE(r.f_F_W[leg].z(), params.f_min_N - 1e-6);
+      EXPECT_LE(std::abs(r.f_F_W[leg].x()), params.friction * r.f_F_W[leg].z() + 1e-6);
+      EXPECT_LE(std::abs(r.f_F_W[leg].y()), params.friction * r.f_F_W[leg].z() + 1e-6);
+      if (r.torque_rows_dropped) continue;  // clamped torques no longer hold the contact exactly
+      const Vec3 down = -test::Go2().legs[leg].foot_radius_m * setup.n_W;
+      const Vec3 qdd = a.segment<3>(6 + 3 * static_cast<int>(leg));
+      const Vec3 a_F = a.head<3>() + a.segment<3>(3).cross(setup.wb.p_BF_W[leg]) +
+                       setup.wb.J_ll[leg] * qdd + setup.wb.Jd_v[leg];
+      const Vec3 alpha = a.segment<3>(3) + setup.wb.Jw_ll[leg] * qdd + setup.wb.Jwd_v[leg];
+      const Vec3 v_P = setup.wb.v_WF[leg] + setup.wb.w_shank_W[leg].cross(down);
+      const Vec3 a_P = a_F + alpha.cross(down);
+      EXPECT_LT((a_P + params.contact_damping_per_s * v_P).norm(), 1e-6 * (1.0 + a.norm()))
+          << "trial " << trial;
+    }
+  }
+}
+
+TEST(TsidNullspace, StandingStillNeedsNoAcceleration) {
+  Case setup(test::StandingState());
+  TsidNullspace wbc({}, test::Go2());
+  const WbcResult r = wbc.Solve(setup.input());
+  ASSERT_EQ(r.status, SolveStatus::kOptimal);
+  const Vec18 a = Accelerate(setup, r);
+  EXPECT_LT(a.head<3>().norm(), 0.05);
+  EXPECT_LT(a.segment<3>(3).norm(), 0.5);
+}
+
+TEST(TsidNullspace, SwingFootAcceleratesAsAsked) {
+  Case setup(test::StandingState());
+  setup.Swing(Leg::kFR);
+  setup.Swing(Leg::kHL);
+  for (const Leg leg : kLegs) setup.feet[leg].p_WF = setup.wb.p_WF[leg];
+  setup.feet[Leg::kFR].a_WF = {3.0, 0.0, 5.0};
+  TsidParams params;
+  params.swing_weight = 1e4;
+  TsidNullspace wbc(params, test::Go2());
+  const WbcResult r = wbc.Solve(setup.input());
+  const Vec18 a = Accelerate(setup, r);
+  const Vec3 a_F = a.head<3>() + a.segment<3>(3).cross(setup.wb.p_BF_W[Leg::kFR]) +
+                   setup.wb.J_ll[Leg::kFR] * a.segment<3>(9) + setup.wb.Jd_v[Leg::kFR];
+  EXPECT_LT((a_F - Vec3(3.0, 0.0, 5.0)).norm(), 0.1);
+}
+
+TEST(TsidNullspace, StretchedLegStaysFinite) {
+  RobotState s = test::StandingState();
+  s.q[Leg::kFL] = {0.0, 0.0, -0.001};
+  Case setup(s);
+  TsidNullspace wbc({}, test::Go2());
+  const WbcResult r = wbc.Solve(setup.input());
+  EXPECT_TRUE(IsUsable(r.status));
+  for (const Leg leg : kLegs) EXPECT_TRUE(r.command.tau_Nm[leg].allFinite());
+}
+
+}  // namespace
+}  // namespace scoria::controller

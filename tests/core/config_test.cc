@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "core/config/archive.h"
+#include "tests/support/robots.h"
+
+namespace scoria::core {
+namespace {
+
+enum class Colour { kRed, kGreen };
+constexpr std::array<std::pair<Colour, std::string_view>, 2> EnumNames(Colour) {
+  return {{{Colour::kRed, "red"}, {Colour::kGreen, "green"}}};
+}
+
+struct Circle {
+  static constexpr const char* kType = "circle";
+  double radius_m = 1.0;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Field("radius_m", radius_m, {.min = 0.1, .max = 2.0});
+  }
+  bool operator==(const Circle&) const = default;
+};
+
+struct Square {
+  static constexpr const char* kType = "square";
+  double edge_m = 1.0;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Field("edge_m", edge_m);
+  }
+  bool operator==(const Square&) const = default;
+};
+
+struct Sample {
+  std::string name;
+  int count = 3;
+  bool on = false;
+  Colour colour = Colour::kRed;
+  Vec3 p = Vec3::Zero();
+  std::variant<Circle, Square> shape;
+  std::vector<Circle> list;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Required("name", name);
+    a.Field("count", count, {.min = 1, .max = 9});
+    a.Field("on", on);
+    a.Field("colour", colour);
+    a.Field("p", p);
+    a.Field("shape", shape);
+    a.Field("list", list);
+  }
+  bool operator==(const Sample&) const = default;
+};
+
+std::string ErrorOf(const std::string& yaml) {
+  try {
+    (void)ReadConfig<Sample>(ParseConfig(yaml, "a.yaml"));
+  } catch (const ConfigError& e) {
+    return e.what();
+  }
+  return "no error";
+}
+
+TEST(Config, ErrorsNamePlaceKeyValueAndRule) {
+  EXPECT_EQ(ErrorOf("count: 3\n"), "a.yaml:1:1: name: is missing and has no default");
+  EXPECT_EQ(ErrorOf("name: x\ncount: 12\n"), "a.yaml:2:8: count: 12 is outside [1, 9]");
+  EXPECT_EQ(ErrorOf("name: x\ncount: 2.5\n"), "a.yaml:2:8: count: \"2.5\" is not a whole number");
+  EXPECT_EQ(ErrorOf("name: x\ncuont: 2\n"),
+            "a.yaml:2:1: cuont: unknown key (did you mean \"count\"?)");
+  EXPECT_EQ(ErrorOf("name: x\nzebra: 2\n"),
+            "a.yaml:2:1: zebra: unknown key; known here: name, count, on, colour, p, shape, list");
+  EXPECT_EQ(ErrorOf("name: x\nname: y\n"), "a.yaml:2:1: name: given twice, first in line 1");
+  EXPECT_EQ(ErrorOf("name: x\non: yes\n"), "a.yaml:2:5: on: \"yes\" is not true or false");
+  EXPECT_EQ(ErrorOf("name: x\ncolour: gren\n"),
+            "a.yaml:2:9: colour: unknown \"gren\"; choices: green, red (did you mean \"green\"?)");
+  EXPECT_EQ(ErrorOf("name: x\np: [1, 2]\n"), "a.yaml:2:4: p: has 2 elements, must have 3");
+  EXPECT_EQ(ErrorOf("name: x\nshape: {type: circel}\n"),
+            "a.yaml:2:15: shape.type: unknown \"circel\"; choices: circle, square (did you mean "
+            "\"circle\"?)");
+  EXPECT_EQ(ErrorOf("name: x\nshape: {type: circle, radius_m: 5}\n"),
+            "a.yaml:2:33: shape.radius_m: 5 is outside [0.1, 2]");
+  EXPECT_EQ(ErrorOf("name: x\nlist: [{radius_m: a}]\n"),
+            "a.yaml:2:19: list[0].radius_m: \"a\" is not a number");
+  EXPECT_EQ(ErrorOf("name: x\nlist: 3\n"), "a.yaml:2:7: list: \"3\" is not a list");
+  EXPECT_EQ(ErrorOf("name: [\n").substr(0, 30), "a.yaml:2:1: not valid YAML: en");
+}
+
+TEST(Config, WrittenConfigReadsBackEqual) {
+  Sample sample;
+  sample.name = "a: \"quoted\" name # with signs";
+  sample.count = 7;
+  sample.on = true;
+  sample.colour = Colour::kGreen;
+  sample.p = {0.1, -1e-9, 3.0};
+  sample.shape = Square{2.5};
+  sample.list = {{0.3}, {1.7}};
+  const std::string yaml = EmitYaml(WriteConfig(sample));
+  EXPECT_EQ(ReadConfig<Sample>(ParseConfig(yaml, "b.yaml")), sample) << yaml;
+}
+
+TEST(Config, BaseIsOverriddenDeeplyAndErrorsPointIntoIt) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder.path() / "base.yaml")
+      << "name: base\nshape: {type: circle, radius_m: 0.5}\ncount: 99\n";
+  std::ofstream(folder.path() / "child.yaml")
+      << "base: base.yaml\nshape: {radius_m: 0.7}\ncount: 4\n";
+  std::ofstream(folder.path() / "bad.yaml") << "base: base.yaml\nname: x\n";
+  const auto child = ReadConfig<Sample>(LoadConfig(folder.path() / "child.yaml"));
+  EXPECT_EQ(child.name, "base");
+  EXPECT_EQ(std::get<Circle>(child.shape).radius_m, 0.7);
+  try {
+    (void)ReadConfig<Sample>(LoadConfig(folder.path() / "bad.yaml"));
+    FAIL() << "99 is out of range";
+  } catch (const ConfigError& e) {
+    EXPECT_EQ(std::string(e.what()),
+              (folder.path() / "base.yaml").string() + ":3:8: count: 99 is outside [1, 9]");
+  }
+}
+
+TEST(Config, BaseThatIncludesItselfIsRefused) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder.path() / "a.yaml") << "base: b.yaml\n";
+  std::ofstream(folder.path() / "b.yaml") << "base: a.yaml\n";
+  EXPECT_THROW((void)LoadConfig(folder.path() / "a.yaml"), ConfigError);
+}
+
+TEST(Config, OverrideSetsNestedKeysAndNewVariantsReplaceOldOnes) {
+  ConfigNode node = ParseConfig("name: x\nshape: {type: circle, radius_m: 0.5}\n", "a.yaml");
+  ApplyOverride(node, "shape.radius_m=0.9");
+  EXPECT_EQ(std::get<Circle>(ReadConfig<Sample>(node).shape).radius_m, 0.9);
+  ApplyOverride(node, "shape.type=square");  // the circle's radius means nothing to a square
+  EXPECT_EQ(std::get<Square>(ReadConfig<Sample>(node).shape).edge_m, 1.0);
+  EXPECT_THROW(ApplyOverride(node, "nonsense"), ConfigError);
+}
+
+TEST(Config, DescriptionListsRangesDefaultsAndAlternatives) {
+  const FieldInfo info = DescribeConfig<Sample>();
+  ASSERT_EQ(info.children.size(), 7u);
+  EXPECT_TRUE(info.children[0].required);
+  EXPECT_EQ(info.children[1].default_value, "3");
+  EXPECT_EQ(info.children[1].max, 9.0);
+  EXPECT_EQ(info.children[5].children.size(), 2u);
+}
+
+}  // namespace
+}  // namespace scoria::core

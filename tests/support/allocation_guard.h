@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace scoria::test {
+
+/// Counts heap allocations of this thread while it lives, by whatever route: new, malloc, Eigen,
+/// the standard library.
+class AllocationGuard {
+ public:
+  AllocationGuard();
+  ~AllocationGuard();
+  [[nodiscard]] long count() const;
+};
+
+}  // namespace scoria::test
