@@ -32,11 +32,12 @@ struct Comparison {
   std::string a, b;
   std::vector<std::string> point;
   Cell cell_a, cell_b;
-  RatioEstimate ratio;      // of falls per metre, a over b
-  Dispersion dispersion;    // across terrains, of the pooled counts
-  Interval bootstrap;       // of the ratio, by terrain
-  double detectable = 0.0;  // smallest ratio that this budget could see
-  std::string verdict;      // one sentence
+  RatioEstimate ratio;       // of falls per metre, a over b
+  std::size_t terrains = 0;  // walked by both
+  Dispersion dispersion;     // across terrains, of a's share of the falls
+  Interval bootstrap;        // of the ratio, by terrain
+  double detectable = 0.0;   // smallest ratio that this budget could see
+  std::string verdict;       // one sentence
 };
 [[nodiscard]] Comparison Compare(const CampaignResults& results, const std::string& a,
                                  const std::string& b, const std::vector<std::string>& point);

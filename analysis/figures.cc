@@ -54,6 +54,7 @@ CaptionedFigure FallFigure(const CampaignResults& results, std::size_t axis,
                 title);
   std::string plots, arrows;
   double smallest = 1.0;
+  bool any = false;
   for (std::size_t a = 0; a < results.arms.size(); ++a) {
     std::vector<std::vector<double>> seen, none;
     const auto points = Along(results.axes, axis, fixed);
@@ -65,6 +66,7 @@ CaptionedFigure FallFigure(const CampaignResults& results, std::size_t axis,
     for (const auto& point : points) {
       const Cell cell = PoolCell(results, results.arms[a], point);
       if (cell.falls.exposure <= 0.0) continue;
+      any = true;
       // Arms are set side by side so that their intervals do not cover each other.
       const double x =
           std::stod(point[axis]) +
@@ -96,7 +98,9 @@ CaptionedFigure FallFigure(const CampaignResults& results, std::size_t axis,
   figure.Line(fmt::format("set xlabel '{}'; set ylabel 'falls per metre'",
                           Escape(results.axes[axis].label)));
   figure.Line(fmt::format("set title '{}'", Escape(title)));
-  figure.Line("plot " + plots);
+  figure.Line(any ? "plot " + plots
+                  : std::string("unset logscale; set label 1 'nothing walked' at graph 0.5, graph "
+                                "0.5 center; plot [0:1][0:1] NaN notitle"));
   return {std::move(figure),
           "Bars: exact 95 % Poisson intervals. A triangle marks an arm that did not fall there: it "
           "points at the upper bound of its rate."};

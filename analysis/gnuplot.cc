@@ -11,6 +11,15 @@
 #include <fmt/format.h>
 
 namespace scoria::analysis {
+namespace {
+
+std::string ShellQuoted(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+}  // namespace
 
 Figure::Figure(std::string name, std::string title, int width_px, int height_px)
     : name_(std::move(name)), title_(std::move(title)), width_px_(width_px), height_px_(height_px) {
@@ -47,8 +56,9 @@ void Figure::Render(const std::filesystem::path& folder) const {
   out.close();
   if (!out) throw std::runtime_error(fmt::format("{}: cannot write", script.string()));
   const fs::path messages = folder / (name_ + ".gnuplot.txt");
-  const std::string command = fmt::format("cd '{}' && gnuplot '{}.gp' > '{}.gnuplot.txt' 2>&1",
-                                          folder.string(), name_, name_);
+  const std::string command =
+      fmt::format("cd {} && gnuplot {}.gp > {}.gnuplot.txt 2>&1", ShellQuoted(folder.string()),
+                  ShellQuoted(name_), ShellQuoted(name_));
   const int status = std::system(command.c_str());
   if (status != 0) {
     std::ifstream in(messages);

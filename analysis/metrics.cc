@@ -36,14 +36,16 @@ double CommandSpeed(const core::LogRow& row) {
   return std::hypot(row.cmd_v_x_mps, row.cmd_v_y_mps);
 }
 
-bool SameCommand(const core::LogRow& a, const core::LogRow& b) {
-  return std::abs(a.cmd_v_x_mps - b.cmd_v_x_mps) < kSameCommand_mps &&
-         std::abs(a.cmd_v_y_mps - b.cmd_v_y_mps) < kSameCommand_mps &&
-         (a.cmd_w_z_radps == 0.0) == (b.cmd_w_z_radps == 0.0);
-}
-
 bool IsStop(const core::LogRow& row) {
   return row.cmd_v_x_mps == 0.0 && row.cmd_v_y_mps == 0.0 && row.cmd_w_z_radps == 0.0;
+}
+
+/// Against the command at the start of the steady stretch, so that slow drifts count too.
+bool SameCommand(const core::LogRow& a, const core::LogRow& b) {
+  constexpr double kSameYaw_radps = 0.3;  // a follower's steering
+  return std::abs(a.cmd_v_x_mps - b.cmd_v_x_mps) < kSameCommand_mps &&
+         std::abs(a.cmd_v_y_mps - b.cmd_v_y_mps) < kSameCommand_mps &&
+         std::abs(a.cmd_w_z_radps - b.cmd_w_z_radps) < kSameYaw_radps && IsStop(a) == IsStop(b);
 }
 
 }  // namespace
@@ -58,11 +60,25 @@ void MetricsAccumulator::StartStretch(const core::LogRow& row) {
   segment_ = row.segment;
   chord_ = window_ = MarkOf(row);
   window_distance_m_ = 0.0;
-  command_since_s_ = row.time_s;
+  StartSteady(row);
+  previous_ = row;
+}
+
+void MetricsAccumulator::StartSteady(const core::LogRow& row) {
+  steady_ = row;
   stride_.clear();
   stride_head_ = 0;
   standing_ = false;
-  previous_ = row;
+  window_ = MarkOf(row);
+  window_distance_m_ = 0.0;
+}
+
+/// Counts the open chord, where a fall or the end of the log cuts it short.
+void MetricsAccumulator::EndStretch() {
+  if (!in_stretch_) return;
+  in_stretch_ = false;
+  metrics_.distance_m +=
+      std::hypot(previous_.p_WB_m[0] - chord_.x_m, previous_.p_WB_m[1] - chord_.y_m);
 }
 
 void MetricsAccumulator::AddRow(const core::LogRow& row, const core::SolveTimes& times) {
@@ -70,16 +86,15 @@ void MetricsAccumulator::AddRow(const core::LogRow& row, const core::SolveTimes&
   metrics_.mass_kg = row.total_mass_kg;
   if (times.mpc_s > 0.0) mpc_s_.push_back(times.mpc_s);
   if (times.wbc_s > 0.0) wbc_s_.push_back(times.wbc_s);
-  if (!row.operating || row.fallen) {
-    in_stretch_ = false;
-    return;
-  }
+  if (!row.operating || row.fallen || row.segment != segment_) EndStretch();
+  if (!row.operating || row.fallen) return;
   for (std::size_t leg = 0; leg < 4; ++leg) {
     const double* f = &row.f_F_W_N[3 * leg];
     metrics_.peak_foot_force_N =
         std::max(metrics_.peak_foot_force_N, std::sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]));
   }
-  if (!in_stretch_ || row.segment != segment_) StartStretch(row);
+  if (!in_stretch_) StartStretch(row);
+  if (!SameCommand(row, steady_)) StartSteady(row);
   AddWalking(row);
   AddWindow(row);
   AddTracking(row);
@@ -100,9 +115,8 @@ void MetricsAccumulator::AddWalking(const core::LogRow& row) {
 
 /// One point of cost of transport against speed for every five steady seconds.
 void MetricsAccumulator::AddWindow(const core::LogRow& row) {
-  const bool changed = std::abs(CommandSpeed(row) - CommandSpeed(previous_)) > kSameCommand_mps;
-  const bool settling = row.time_s - command_since_s_ < kSettle_s;
-  if (changed || settling || CommandSpeed(row) == 0.0) {
+  const bool settling = row.time_s - steady_.time_s < kSettle_s;
+  if (settling || CommandSpeed(row) == 0.0) {
     window_ = MarkOf(row);
     window_distance_m_ = 0.0;
     return;
@@ -121,13 +135,7 @@ void MetricsAccumulator::AddWindow(const core::LogRow& row) {
 }
 
 void MetricsAccumulator::AddTracking(const core::LogRow& row) {
-  if (!SameCommand(row, previous_)) {
-    command_since_s_ = row.time_s;
-    stride_.clear();
-    stride_head_ = 0;
-    standing_ = false;
-  }
-  if (row.time_s - command_since_s_ < kSettle_s) return;
+  if (row.time_s - steady_.time_s < kSettle_s) return;
   TrackingErrors& t = metrics_.tracking;
   if (IsStop(row)) {
     if (!standing_) {
@@ -177,6 +185,7 @@ void MetricsAccumulator::AddTracking(const core::LogRow& row) {
 }
 
 EpisodeMetrics MetricsAccumulator::Finish() {
+  EndStretch();
   EpisodeMetrics m = metrics_;
   const double work_J = m.mass_kg * gravity_mps2_ * m.distance_m;
   if (work_J > 0.0) {

@@ -79,6 +79,8 @@ class MetricsAccumulator {
   void AddWindow(const core::LogRow& row);
   void AddTracking(const core::LogRow& row);
   void StartStretch(const core::LogRow& row);
+  void StartSteady(const core::LogRow& row);
+  void EndStretch();
 
   double gravity_mps2_;
   EpisodeMetrics metrics_;
@@ -88,7 +90,7 @@ class MetricsAccumulator {
   Mark chord_, window_;
   double window_distance_m_ = 0.0;
   // Tracking.
-  double command_since_s_ = 0.0;
+  core::LogRow steady_;  // with which the present command began
   double stand_x_m_ = 0.0, stand_y_m_ = 0.0;
   bool standing_ = false;
   std::vector<std::array<double, 3>> stride_;  // time, error x, error y of the last stride

@@ -128,11 +128,12 @@ void AddVerdicts(const CampaignResults& results, HtmlPage& page) {
     page.List(rest);
   }
   page.Note(
-      "Ratios of falls per metre with exact intervals (conditional binomial). Where the number of "
-      "falls differs between "
-      "terrains more than chance allows (p < 0.05), the interval comes from resampling terrains "
-      "instead. Intervals are not "
-      "corrected for looking at many points: about one in twenty would miss the truth by chance.");
+      "Ratios of falls per metre with exact intervals (conditional binomial). Where an arm's share "
+      "of the falls differs between "
+      "six or more terrains by more than chance (p < 0.05), the interval is widened to the one "
+      "from resampling terrains. Intervals "
+      "are not corrected for looking at many points: about one in twenty misses the truth by "
+      "chance.");
 }
 
 std::string Value(double x, const char* format) {
@@ -229,6 +230,14 @@ void AddVideos(const fs::path& folder, HtmlPage& page) {
   for (const auto& [path, name] : links) page.Video(path, name);
 }
 
+/// A CSV field.
+std::string Quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
 void WriteTables(const CampaignResults& results, const std::vector<Cell>& cells,
                  const fs::path& folder) {
   std::string csv = "id,arm";
@@ -240,8 +249,8 @@ void WriteTables(const CampaignResults& results, const std::vector<Cell>& cells,
       "factor\n";
   for (const EpisodeRecord& e : results.episodes) {
     const EpisodeMetrics& m = e.metrics;
-    csv += e.id + "," + e.arm;
-    for (const std::string& value : e.point) csv += "," + value;
+    csv += Quoted(e.id) + "," + Quoted(e.arm);
+    for (const std::string& value : e.point) csv += "," + Quoted(value);
     csv += fmt::format(",{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", e.seed, e.end,
                        m.distance_m, e.falls, e.stuck, m.cot_mech_abs, m.cot_mech_pos,
                        m.cot_electrical, m.tracking.velocity_rmse_mps, m.tracking.height_rmse_m,

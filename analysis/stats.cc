@@ -104,24 +104,30 @@ double DetectableRatio(double rate, double exposure_each, double power) {
   return std::exp(log_ratio);
 }
 
-Dispersion CheckDispersion(std::span<const long> counts, std::span<const double> exposures) {
+Dispersion CheckShares(std::span<const PairedCounts> terrains) {
   Dispersion d;
-  double events = 0.0, exposure = 0.0;
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    events += static_cast<double>(counts[i]);
-    exposure += exposures[i];
+  double events_a = 0.0, events_b = 0.0, exposure_a = 0.0, exposure_b = 0.0;
+  for (const PairedCounts& t : terrains) {
+    events_a += static_cast<double>(t.events_a);
+    events_b += static_cast<double>(t.events_b);
+    exposure_a += t.exposure_a;
+    exposure_b += t.exposure_b;
   }
-  if (counts.size() < 2 || events == 0.0) return d;
+  if (events_a == 0.0 || events_b == 0.0) return d;
+  const double ratio = events_a / exposure_a / (events_b / exposure_b);
   double chi2 = 0.0;
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    const double expected = events * exposures[i] / exposure;
-    if (expected > 0.0)
-      chi2 += (static_cast<double>(counts[i]) - expected) *
-              (static_cast<double>(counts[i]) - expected) / expected;
+  int used = 0;
+  for (const PairedCounts& t : terrains) {
+    const double total = static_cast<double>(t.events_a + t.events_b);
+    if (total == 0.0) continue;
+    const double share = ratio * t.exposure_a / (ratio * t.exposure_a + t.exposure_b);
+    const double difference = static_cast<double>(t.events_a) - total * share;
+    chi2 += difference * difference / (total * share * (1.0 - share));
+    ++used;
   }
-  const double freedom = static_cast<double>(counts.size()) - 1.0;
-  d.index = chi2 / freedom;
-  d.p_value = cdf(complement(boost::math::chi_squared_distribution<double>(freedom), chi2));
+  if (used < 2) return d;
+  d.index = chi2 / (used - 1.0);
+  d.p_value = cdf(complement(boost::math::chi_squared_distribution<double>(used - 1.0), chi2));
   return d;
 }
 

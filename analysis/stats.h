@@ -38,21 +38,22 @@ struct RatioEstimate {
 /// form). Infinite without events.
 [[nodiscard]] double DetectableRatio(double rate, double exposure_each, double power = 0.8);
 
-/// Variance over mean of counts per unit exposure across terrains; 1 for Poisson, more when
-/// terrains differ.
-struct Dispersion {
-  double index = 1.0;
-  double p_value = 1.0;  // of "Poisson", one-sided
-};
-[[nodiscard]] Dispersion CheckDispersion(std::span<const long> counts,
-                                         std::span<const double> exposures);
-
-/// Interval of the rate ratio by resampling terrains (clusters) with their pairs of counts. Needs
-/// >= 3 terrains.
+/// Counts of two arms on the same terrain.
 struct PairedCounts {
   long events_a = 0, events_b = 0;
   double exposure_a = 0.0, exposure_b = 0.0;
 };
+
+/// Does one arm's share of the falls differ between terrains more than chance allows? Terrains that
+/// are harder for both arms do not matter: the comparison is paired.
+struct Dispersion {
+  double index = 1.0;    // chi-squared over degrees of freedom; 1 when only chance is at work
+  double p_value = 1.0;  // of "only chance", one-sided
+};
+[[nodiscard]] Dispersion CheckShares(std::span<const PairedCounts> terrains);
+
+/// Interval of the rate ratio by resampling terrains (clusters) with their pairs of counts. Needs
+/// >= 3 terrains.
 [[nodiscard]] Interval BootstrapRateRatio(std::span<const PairedCounts> terrains,
                                           std::uint64_t seed, int resamples = 2000,
                                           double confidence = 0.95);

@@ -6,15 +6,18 @@
 #include <csignal>
 #include <fstream>
 #include <map>
+#include <set>
 #include <sstream>
 #include <thread>
 
 #include <nlohmann/json.hpp>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "app/progress.h"
 #include "app/scenario.h"
+#include "app/version.h"
 
 namespace scoria::app {
 namespace {
@@ -49,6 +52,8 @@ CampaignArm ReadArm(const ConfigNode& node, std::size_t index) {
     if (entry.key == "name") {
       core::ConfigReader::Read(entry.value, path + ".name", arm.name);
     } else if (entry.key == "set") {
+      if (entry.value.kind != ConfigNode::Kind::kMap)
+        throw ConfigError(entry.value.origin, path + ".set", "must be a map of scenario keys");
       arm.set = entry.value;
     } else {
       throw ConfigError(entry.key_origin, path + "." + entry.key,
@@ -63,12 +68,28 @@ CampaignArm ReadArm(const ConfigNode& node, std::size_t index) {
 CampaignAxis ReadAxis(const ConfigNode& node, std::size_t index) {
   const std::string path = fmt::format("sweep[{}]", index);
   CampaignAxis axis;
-  core::ConfigReader reader(node, path);
-  reader.Required("key", axis.key);
-  reader.Field("label", axis.label);
-  reader.Required("values", axis.values);
-  reader.Finish();
-  if (axis.values.empty()) throw ConfigError(node.origin, path + ".values", "is empty");
+  for (const ConfigNode::Entry& entry : node.entries) {
+    if (entry.key == "key") core::ConfigReader::Read(entry.value, path + ".key", axis.key);
+    if (entry.key == "label") core::ConfigReader::Read(entry.value, path + ".label", axis.label);
+    if (entry.key != "key" && entry.key != "label" && entry.key != "values") {
+      throw ConfigError(entry.key_origin, path + "." + entry.key,
+                        "unknown key; known here: key, label, values");
+    }
+  }
+  if (axis.key.empty())
+    throw ConfigError(node.origin, path + ".key", "is missing and has no default");
+  if (const ConfigNode* values = node.Find("values");
+      values != nullptr && values->kind == ConfigNode::Kind::kSequence) {
+    axis.values = values->items;
+  }
+  if (axis.values.empty())
+    throw ConfigError(node.origin, path + ".values", "must list at least one value");
+  for (const ConfigNode& value : axis.values) {
+    std::string name =
+        value.kind == ConfigNode::Kind::kScalar ? value.scalar : core::EmitYaml(value);
+    if (const ConfigNode* named = value.Find("name")) name = named->scalar;
+    axis.names.push_back(name);
+  }
   if (axis.label.empty()) axis.label = axis.key;
   return axis;
 }
@@ -88,33 +109,54 @@ std::string FileName(const std::string& text) {
   return out;
 }
 
-void AddJobs(const Campaign& campaign, const CampaignArm& arm, std::vector<std::string>& point,
+/// Every combination of the axes' values, by index.
+void AddJobs(const Campaign& campaign, const CampaignArm& arm, std::vector<std::size_t>& point,
              std::vector<Job>& jobs) {
   if (point.size() < campaign.sweep.size()) {
-    for (const std::string& value : campaign.sweep[point.size()].values) {
-      point.push_back(value);
+    for (std::size_t i = 0; i < campaign.sweep[point.size()].values.size(); ++i) {
+      point.push_back(i);
       AddJobs(campaign, arm, point, jobs);
       point.pop_back();
     }
     return;
   }
   ConfigNode node = campaign.scenario;
-  core::MergeConfig(node, arm.set);
+  if (arm.set.kind == ConfigNode::Kind::kMap) core::MergeConfig(node, arm.set);
   for (std::size_t i = 0; i < point.size(); ++i)
-    core::ApplyOverride(node, campaign.sweep[i].key + "=" + point[i]);
+    core::SetAt(node, campaign.sweep[i].key, campaign.sweep[i].values[point[i]]);
   for (int k = 0; k < campaign.seeds; ++k) {
     Scenario scenario = core::ReadConfig<Scenario>(node);
     Job job;
     job.arm = arm.name;
-    job.point = point;
     job.seed = scenario.seed = campaign.first_seed + static_cast<std::uint64_t>(k);
     job.id = FileName(arm.name);
-    for (const std::string& value : point) job.id += "-" + FileName(value);
+    for (std::size_t i = 0; i < point.size(); ++i) {
+      job.point.push_back(campaign.sweep[i].names[point[i]]);
+      job.id += "-" + FileName(job.point.back());
+    }
     job.id += fmt::format("-s{}", job.seed);
     scenario.name = job.id;
     job.scenario_yaml = EffectiveYaml(scenario);
     jobs.push_back(std::move(job));
   }
+}
+
+std::vector<Job> AllJobs(const Campaign& campaign) {
+  std::vector<Job> jobs;
+  for (const CampaignArm& arm : campaign.arms) {
+    std::vector<std::size_t> point;
+    AddJobs(campaign, arm, point, jobs);
+  }
+  std::set<std::string> ids;
+  for (const Job& job : jobs) {
+    if (!ids.insert(job.id).second) {
+      throw ConfigError(
+          campaign.scenario.origin, "arms, sweep",
+          fmt::format("two episodes would share the folder {}; give arms and values distinct names",
+                      job.id));
+    }
+  }
+  return jobs;
 }
 
 std::string ReadText(const fs::path& path) {
@@ -136,6 +178,7 @@ pid_t StartWorker(const std::string& program, const fs::path& folder) {
                     log = (folder / "worker.txt").string();
   const pid_t pid = fork();
   if (pid != 0) return pid;
+  prctl(PR_SET_PDEATHSIG, SIGTERM);  // a worker does not outlive its campaign
   if (std::freopen(log.c_str(), "w", stderr) == nullptr) _exit(127);
   execl(program.c_str(), program.c_str(), "run", scenario.c_str(), "--out", out.c_str(), "--quiet",
         nullptr);
@@ -146,16 +189,21 @@ pid_t StartWorker(const std::string& program, const fs::path& folder) {
 void WriteCrash(const fs::path& folder, const Job& job, int status) {
   const std::string how = WIFSIGNALED(status) ? fmt::format("signal {}", WTERMSIG(status))
                                               : fmt::format("exit code {}", WEXITSTATUS(status));
-  const nlohmann::json json = {{"scenario", job.id},
-                               {"seed", job.seed},
-                               {"end", "crashed"},
-                               {"how", how},
-                               {"message", ReadText(folder / "worker.txt")}};
-  WriteText(folder / "result.json", json.dump(2) + "\n");
+  const nlohmann::json json = {{"scenario", job.id}, {"seed", job.seed},
+                               {"end", "crashed"},   {"version", kVersion},
+                               {"how", how},         {"message", ReadText(folder / "worker.txt")}};
+  WriteText(folder / "result.json",
+            json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
+/// A result of this very scenario by this very version, not of an interrupted episode.
 bool IsDone(const fs::path& folder, const Job& job) {
-  return fs::exists(folder / "result.json") && ReadText(folder / "job.yaml") == job.scenario_yaml;
+  if (!fs::exists(folder / "result.json") || ReadText(folder / "job.yaml") != job.scenario_yaml)
+    return false;
+  const nlohmann::json result =
+      nlohmann::json::parse(ReadText(folder / "result.json"), nullptr, false);
+  return !result.is_discarded() && result.value("end", "interrupted") != "interrupted" &&
+         result.value("version", "") == kVersion;
 }
 
 void WriteIndex(const Campaign& campaign, const std::vector<Job>& jobs, const fs::path& folder) {
@@ -165,7 +213,7 @@ void WriteIndex(const Campaign& campaign, const std::vector<Job>& jobs, const fs
                           {"episodes", nlohmann::json::array()}};
   for (const CampaignArm& arm : campaign.arms) index["arms"].push_back(arm.name);
   for (const CampaignAxis& axis : campaign.sweep) {
-    index["sweep"].push_back({{"key", axis.key}, {"label", axis.label}, {"values", axis.values}});
+    index["sweep"].push_back({{"key", axis.key}, {"label", axis.label}, {"values", axis.names}});
   }
   for (const Job& job : jobs) {
     index["episodes"].push_back(
@@ -182,6 +230,10 @@ Campaign LoadCampaign(const fs::path& file, const std::vector<std::string>& over
   Campaign campaign;
   campaign.scenario = Require(node, "scenario");
   const ConfigNode &arms = Require(node, "arms"), *sweep = node.Find("sweep");
+  for (const auto& [list, key] : {std::pair{&arms, "arms"}, std::pair{sweep, "sweep"}}) {
+    if (list != nullptr && list->kind != ConfigNode::Kind::kSequence)
+      throw ConfigError(list->origin, key, "must be a list, one \"- \" per entry");
+  }
   for (std::size_t i = 0; i < arms.items.size(); ++i)
     campaign.arms.push_back(ReadArm(arms.items[i], i));
   if (campaign.arms.empty()) throw ConfigError(arms.origin, "arms", "must list at least one arm");
@@ -195,15 +247,12 @@ Campaign LoadCampaign(const fs::path& file, const std::vector<std::string>& over
   campaign.name = rest.name;
   campaign.first_seed = rest.first_seed;
   campaign.seeds = rest.seeds;
+  (void)AllJobs(campaign);  // checks every scenario
   return campaign;
 }
 
 CampaignOutcome RunCampaign(const Campaign& campaign, const CampaignOptions& options) {
-  std::vector<Job> jobs;
-  for (const CampaignArm& arm : campaign.arms) {
-    std::vector<std::string> point;
-    AddJobs(campaign, arm, point, jobs);
-  }
+  const std::vector<Job> jobs = AllJobs(campaign);
   const fs::path episodes = options.folder / "episodes";
   fs::create_directories(episodes);
   WriteIndex(campaign, jobs, options.folder);

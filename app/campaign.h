@@ -19,7 +19,8 @@ struct CampaignArm {
 /// One swept key of the scenario; the arms cross its values.
 struct CampaignAxis {
   std::string key, label;
-  std::vector<std::string> values;  // in YAML
+  std::vector<core::ConfigNode> values;
+  std::vector<std::string> names;  // of the values, as the file writes them
 };
 
 /// arms x sweep x seeds over one scenario. Arms share seeds, so that they walk the same ground
@@ -41,7 +42,6 @@ struct CampaignOptions {
   std::filesystem::path folder;  // out/NAME by default
   int workers = 2;
   std::string program;  // the scoria executable, for the workers
-  bool quiet = false;
   const std::atomic<bool>* interrupted = nullptr;
 };
 

@@ -159,6 +159,7 @@ void AddRender(CLI::App& app) {
     const terrains::Heightfield ground =
         terrains::GenerateTerrain(origin.scenario.terrain, origin.scenario.seed, 0);
     analysis::LogContent content = analysis::ReadLog(o->log);
+    if (!content.problem.empty()) fmt::print(stderr, "{}\n", content.problem);
     std::erase_if(content.rows, [&](const core::LogRow& r) {
       return r.time_s < o->from_s || r.time_s > o->to_s;
     });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/episode_files.h"
 
+#include <algorithm>
 #include <fstream>
 #include <optional>
 
@@ -34,6 +35,7 @@ void WriteText(const fs::path& path, const std::string& text) {
 EpisodeReport RunToFolder(const Scenario& scenario, const RunOptions& options) {
   const core::RobotDescription robot = core::LoadRobot(scenario.robot);
   fs::create_directories(options.folder);
+  fs::remove(options.folder / "result.json");  // an old result must not stand beside a new scenario
   WriteText(options.folder / "scenario.yaml", EffectiveYaml(scenario));
   const terrains::Heightfield ground =
       terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);
@@ -67,7 +69,9 @@ EpisodeReport RunToFolder(const Scenario& scenario, const RunOptions& options) {
   report.metrics = accumulator.Finish();
   if (file) file->Close();
   const EpisodeResult& r = report.result;
-  report.real_time_factor = r.duration_s / (r.physics_s + r.controller_s);
+  const double wall_s = r.physics_s + r.controller_s,
+               simulated_s = std::max(r.duration_s, scenario.physics.step_s);
+  report.real_time_factor = wall_s > 0.0 ? simulated_s / wall_s : 0.0;
 
   nlohmann::json json = {
       {"scenario", scenario.name},
@@ -84,11 +88,13 @@ EpisodeReport RunToFolder(const Scenario& scenario, const RunOptions& options) {
         {"wbc_failures", r.counters.wbc_failures},
         {"wbc_torque_drops", r.counters.wbc_torque_drops}}},
       {"real_time_factor", report.real_time_factor},
-      {"physics_us_per_step", r.physics_s / r.duration_s * scenario.physics.step_s * 1e6},
-      {"controller_us_per_step", r.controller_s / r.duration_s * scenario.physics.step_s * 1e6},
+      {"physics_us_per_step", r.physics_s / simulated_s * scenario.physics.step_s * 1e6},
+      {"controller_us_per_step", r.controller_s / simulated_s * scenario.physics.step_s * 1e6},
       {"terrain", terrain},
       {"metrics", report.metrics}};
-  WriteText(options.folder / "result.json", json.dump(2) + "\n");
+  WriteText(options.folder / "result.json.part", json.dump(2) + "\n");
+  fs::rename(options.folder / "result.json.part",
+             options.folder / "result.json");  // whole or not at all
   return report;
 }
 

@@ -21,8 +21,10 @@ FallCause FallMonitor::Update(const sim::Truth& truth, double ground_z_m) noexce
   return FallCause::kNone;
 }
 
-bool FallMonitor::UpdateStuck(const Vec3& p_WB, bool commanded) noexcept {
-  const bool moved = (p_WB.head<2>() - anchor_W_).norm() > params_.stuck_distance_m;
+bool FallMonitor::UpdateStuck(const Vec3& p_WB, double commanded_mps) noexcept {
+  const bool commanded = commanded_mps > 0.0;
+  const double enough_m = std::min(params_.stuck_distance_m, 0.5 * commanded_mps * params_.stuck_s);
+  const bool moved = (p_WB.head<2>() - anchor_W_).norm() > enough_m;
   if (!commanded || moved || !anchored_) {
     anchor_W_ = p_WB.head<2>();
     anchored_ = true;

@@ -25,7 +25,7 @@ struct FallParams {
             {.min = 0.0, .max = 1.0, .doc = "of the nominal trunk height over the local ground"});
     a.Field("height_s", height_s, {.min = 0.0, .max = 10.0});
     a.Field("stuck_distance_m", stuck_distance_m, {.min = 0.0, .max = 10.0});
-    a.Field("stuck_s", stuck_s, {.min = 1.0, .max = 1e4, .doc = "0 m/s commanded does not count"});
+    a.Field("stuck_s", stuck_s, {.min = 1.0, .max = 1e4, .doc = "while commanded to walk"});
     a.Field("lie_s", lie_s,
             {.min = 0.0, .max = 10.0, .doc = "before the operator lifts the robot"});
     a.Field("stand_s", stand_s, {.min = 0.0, .max = 10.0, .doc = "standing before walking on"});
@@ -49,8 +49,9 @@ class FallMonitor {
   [[nodiscard]] FallCause Update(const sim::Truth& truth, double ground_z_m) noexcept;
 
   /// @returns true once per stuck episode: less than stuck_distance in stuck_s while commanded to
-  /// walk.
-  [[nodiscard]] bool UpdateStuck(const Vec3& p_WB, bool commanded) noexcept;
+  /// walk, or less than half of what a slow command asks for in that time. Turning in place is not
+  /// walking.
+  [[nodiscard]] bool UpdateStuck(const Vec3& p_WB, double commanded_mps) noexcept;
 
   /// After the robot was placed.
   void Reset() noexcept;

@@ -137,7 +137,7 @@ Route PlanRoute(const RouteParams& params, const terrains::Heightfield& ground) 
   Route route;
   for (int i = 0; i < kCorners; ++i) {
     const auto corner = [&](int k) {
-      const double angle = 2.0 * kPi * k / kCorners;
+      const double angle = 2.0 * kPi * (k % kCorners) / kCorners;
       return map.CellOf(radius_m * Vec2(std::cos(angle), std::sin(angle)));
     };
     const auto path = FindPath(map, corner(i), corner(i + 1));

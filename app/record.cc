@@ -291,7 +291,7 @@ void Recorder::RecordEvent(std::int64_t step, double time_s, const std::string& 
                            const std::string& detail) {
   msg::Event event{step, kind, detail};
   Write(RecordedTopics()[kEvent], time_s, event);
-  if (kind == "fall") sink_.MarkFall(ToNanoseconds(time_s));
+  if (kind != "placed") sink_.MarkFall(ToNanoseconds(time_s));
 }
 
 void Recorder::RecordHash(std::int64_t step, double time_s, std::uint64_t hash) {

@@ -56,7 +56,8 @@ class Episode {
         wbc_every_(
             std::max(1, static_cast<int>(std::lround(
                             1.0 / (scenario.controller.rates.wbc_Hz * scenario.physics.step_s))))),
-        give_truth_(controller::NeedsTruth(scenario.controller.estimator)) {
+        give_truth_(controller::NeedsTruth(scenario.controller.estimator)),
+        push_start_s_(scenario.pushes.size()) {
     if (sinks.messages != nullptr) recorder_.emplace(*sinks.messages, scenario);
     Place(operator_.start_W(), operator_.start_yaw_rad(), scenario.start == StartPose::kStanding);
   }
@@ -79,6 +80,9 @@ class Episode {
       }
     }
     result_.duration_s = time_s();
+    const bool ordinary =
+        result_.end == EpisodeEnd::kCompleted || result_.end == EpisodeEnd::kTimedOut;
+    if (!ordinary) Announce("end", std::string(core::EnumName(result_.end)));
     result_.counters = counters_so_far();
     return result_;
   }
@@ -117,11 +121,14 @@ class Episode {
     return operator_.Update(world_.truth().state, walking_s_, scenario_.physics.step_s);
   }
 
-  [[nodiscard]] Vec3 PushForce() const {
+  /// A push starts once, when walking time first reaches it, and lasts its duration in simulated
+  /// time.
+  [[nodiscard]] Vec3 PushForce() {
     Vec3 f_W = Vec3::Zero();
-    for (const Push& push : scenario_.pushes) {
-      if (walking_s_ >= push.at_s && walking_s_ < push.at_s + push.duration_s)
-        f_W += push.force_W_N;
+    for (std::size_t i = 0; i < scenario_.pushes.size(); ++i) {
+      const Push& push = scenario_.pushes[i];
+      if (!push_start_s_[i] && walking_s_ > push.at_s) push_start_s_[i] = time_s();
+      if (push_start_s_[i] && time_s() < *push_start_s_[i] + push.duration_s) f_W += push.force_W_N;
     }
     return f_W;
   }
@@ -174,11 +181,12 @@ class Episode {
     const FallCause cause = fall_monitor_.Update(truth, ground_.HeightAt(p_WB.x(), p_WB.y()));
     if (cause != FallCause::kNone) {
       fallen_ = true;
+      CloseChord();
       lying_s_ = 0.0;
       ++result_.falls;
       Announce("fall", fmt::format("{} at x {:.3f} m, y {:.3f} m", core::EnumName(cause), p_WB.x(),
                                    p_WB.y()));
-    } else if (fall_monitor_.UpdateStuck(p_WB, !command.IsStop())) {
+    } else if (fall_monitor_.UpdateStuck(p_WB, std::hypot(command.v_x_mps, command.v_y_mps))) {
       ++result_.stuck;
       Announce("stuck", fmt::format("at x {:.3f} m, y {:.3f} m", p_WB.x(), p_WB.y()));
       PutOnFeet();
@@ -195,15 +203,23 @@ class Episode {
     }
     chord_s_ += scenario_.physics.step_s;
     if (chord_s_ < kChord_s) return;
-    result_.walked_m += (p_WB.head<2>() - *chord_start_).norm();
+    CloseChord();
     chord_start_ = p_WB.head<2>();
     chord_s_ = 0.0;
+  }
+
+  /// Counts the chord so far; also where a fall or a placement ends it early.
+  void CloseChord() {
+    if (chord_start_)
+      result_.walked_m += (world_.truth().state.p_WB.head<2>() - *chord_start_).norm();
+    chord_start_.reset();
   }
 
   /// As in the field: the robot is set on its feet where it fell, a little further if it has just
   /// fallen there.
   void PutOnFeet() {
     constexpr double kSamePlace_m = 0.3, kFurther_m = 0.25;
+    CloseChord();
     Vec2 place = world_.truth().state.p_WB.head<2>();
     const double heading = operator_.route().empty()
                                ? core::RpyFromRotation(world_.truth().state.R_WB).z()
@@ -303,6 +319,7 @@ class Episode {
   std::uint32_t segment_ = 0;
   double operating_s_ = 0.0, walking_s_ = 0.0, lying_s_ = 0.0, chord_s_ = 0.0;
   bool fallen_ = false;
+  std::vector<std::optional<double>> push_start_s_;
   std::optional<Vec2> chord_start_, last_place_;
 };
 

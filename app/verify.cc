@@ -38,7 +38,10 @@ core::Bytes Fetch(const std::filesystem::path& log, const std::string& topic, st
 /// Compares what the re-run writes with what the log holds.
 class CompareSink final : public MessageSink {
  public:
-  CompareSink(const std::filesystem::path& log, double step_s) : log_(log), step_s_(step_s) {
+  CompareSink(const std::filesystem::path& log, const Scenario& scenario)
+      : log_(log),
+        step_s_(scenario.physics.step_s),
+        complete_(scenario.log.keep == KeepLog::kFull) {
     problem_ = core::McapReader(log).ForEachMessage([&](const core::McapReader::Message& m) {
       logged_[m.channel.topic].push_back({m.time_ns, HashBytes(m.data)});
       return true;
@@ -46,17 +49,23 @@ class CompareSink final : public MessageSink {
     for (const auto& [topic, messages] : logged_) {
       for (const Logged& m : messages) last_ns_ = std::max(last_ns_, m.time_ns);
     }
+    // A cut log may end in the middle of a step: the last step's messages are not all there.
+    if (!problem_.empty()) --last_ns_;
   }
 
   void Write(const Topic& topic, std::int64_t time_ns,
              std::span<const std::byte> message) override {
-    if (!topic.reproducible || !difference_.empty()) return;
-    const auto found = logged_.find(topic.name);
-    if (found == logged_.end()) return;
+    if (!topic.reproducible || !difference_.empty() || time_ns > last_ns_) return;
+    const std::vector<Logged>& kept = logged_[topic.name];
     std::size_t& next = next_[topic.name];
-    if (next >= found->second.size() || found->second[next].time_ns > time_ns)
-      return;  // not kept in the log
-    const Logged& logged = found->second[next];
+    if (next >= kept.size() || kept[next].time_ns > time_ns) {
+      // A log that keeps everything lacks nothing, up to where it was cut.
+      if (complete_)
+        difference_ = fmt::format("{}: {}: the re-run makes a message that the log lacks",
+                                  At(time_ns), topic.name);
+      return;
+    }
+    const Logged& logged = kept[next];
     if (logged.time_ns < time_ns) {
       difference_ = fmt::format("{}: {}: the log has a message that the re-run does not make",
                                 At(logged.time_ns), topic.name);
@@ -77,13 +86,15 @@ class CompareSink final : public MessageSink {
       const auto found = logged_.find(topic.name);
       if (!topic.reproducible || found == logged_.end() || !difference_.empty()) continue;
       const std::size_t next = next_[topic.name];
-      if (next < found->second.size()) {
+      if (next < found->second.size() && found->second[next].time_ns <= last_ns_) {
         difference_ = fmt::format("{}: {}: the log has a message that the re-run does not make",
                                   At(found->second[next].time_ns), topic.name);
       }
     }
     if (compared_ == 0 && difference_.empty())
       difference_ = "the log has no message that could be compared";
+    const bool only_cut = problem_.empty() || problem_.find("cut off at byte") != std::string::npos;
+    if (!only_cut && difference_.empty()) difference_ = problem_;
     return {difference_.empty(), compared_, difference_, problem_};
   }
 
@@ -112,6 +123,7 @@ class CompareSink final : public MessageSink {
 
   std::filesystem::path log_;
   double step_s_;
+  bool complete_;
   std::map<std::string, std::vector<Logged>> logged_;
   std::map<std::string, std::size_t> next_;
   std::int64_t last_ns_ = 0;
@@ -138,7 +150,7 @@ VerifyResult VerifyLog(const std::filesystem::path& log) {
   const core::RobotDescription robot = core::MakeRobot(origin.scenario.robot, origin.urdf_text);
   const terrains::Heightfield ground =
       terrains::GenerateTerrain(origin.scenario.terrain, origin.scenario.seed, 0);
-  CompareSink sink(log, origin.scenario.physics.step_s);
+  CompareSink sink(log, origin.scenario);
   std::atomic<bool> done = false;
   EpisodeSinks sinks;
   sinks.messages = &sink;

@@ -73,6 +73,15 @@ std::int64_t ParseInt(const ConfigNode& node, const std::string& path, const Fie
   return value;
 }
 
+std::uint64_t ParseUnsigned(const ConfigNode& node, const std::string& path) {
+  const std::string& text = ScalarText(node, path, "a whole number from 0 on");
+  std::uint64_t value = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc{} || stop != end) ThrowKind(node, path, "a whole number from 0 on");
+  return value;
+}
+
 std::string ParseString(const ConfigNode& node, const std::string& path) {
   return ScalarText(node, path, "a text");
 }

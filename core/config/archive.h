@@ -95,6 +95,7 @@ std::vector<std::string> TypeNames(const std::variant<Ts...>*) {
 bool ParseBool(const ConfigNode& node, const std::string& path);
 double ParseDouble(const ConfigNode& node, const std::string& path, const FieldRule& rule);
 std::int64_t ParseInt(const ConfigNode& node, const std::string& path, const FieldRule& rule);
+std::uint64_t ParseUnsigned(const ConfigNode& node, const std::string& path);
 std::string ParseString(const ConfigNode& node, const std::string& path);
 [[noreturn]] void ThrowUnknownChoice(const ConfigNode& node, const std::string& path,
                                      std::vector<std::string> choices);
@@ -200,6 +201,8 @@ void ConfigReader::Read(const ConfigNode& node, const std::string& path, T& valu
   namespace d = config_detail;
   if constexpr (std::is_same_v<T, bool>) {
     value = d::ParseBool(node, path);
+  } else if constexpr (std::is_unsigned_v<T>) {
+    value = d::ParseUnsigned(node, path);
   } else if constexpr (std::is_integral_v<T>) {
     value = static_cast<T>(d::ParseInt(node, path, rule));
   } else if constexpr (std::is_floating_point_v<T>) {
@@ -208,10 +211,7 @@ void ConfigReader::Read(const ConfigNode& node, const std::string& path, T& valu
     value = d::ParseString(node, path);
   } else if constexpr (std::is_same_v<T, std::filesystem::path>) {
     const std::filesystem::path given = d::ParseString(node, path);
-    value =
-        given.empty()
-            ? given
-            : (std::filesystem::path(node.origin.file).parent_path() / given).lexically_normal();
+    value = given.empty() ? given : (node.origin.Folder() / given).lexically_normal();
   } else if constexpr (NamedEnum<T>) {
     const std::string name = d::ParseString(node, path);
     for (const auto& [v, n] : EnumNames(T{})) {

@@ -19,7 +19,11 @@ Origin OriginOf(const YAML::Mark& mark, const std::string& file) {
   return {file, mark.line + 1, mark.column + 1};  // yaml-cpp counts from 0
 }
 
-ConfigNode Convert(const YAML::Node& yaml, const std::string& file, const std::string& path) {
+ConfigNode Convert(const YAML::Node& yaml, const std::string& file, const std::string& path,
+                   int depth = 0) {
+  constexpr int kDeepest = 50;
+  if (depth > kDeepest)
+    throw ConfigError(OriginOf(yaml.Mark(), file), path, "is nested too deeply or contains itself");
   ConfigNode node;
   node.origin = OriginOf(yaml.Mark(), file);
   switch (yaml.Type()) {
@@ -33,7 +37,7 @@ ConfigNode Convert(const YAML::Node& yaml, const std::string& file, const std::s
     case YAML::NodeType::Sequence:
       node.kind = ConfigNode::Kind::kSequence;
       for (std::size_t i = 0; i < yaml.size(); ++i) {
-        node.items.push_back(Convert(yaml[i], file, fmt::format("{}[{}]", path, i)));
+        node.items.push_back(Convert(yaml[i], file, fmt::format("{}[{}]", path, i), depth + 1));
       }
       break;
     case YAML::NodeType::Map:
@@ -42,11 +46,14 @@ ConfigNode Convert(const YAML::Node& yaml, const std::string& file, const std::s
         const std::string key = pair.first.Scalar();
         const std::string key_path = path.empty() ? key : path + "." + key;
         const Origin key_origin = OriginOf(pair.first.Mark(), file);
-        if (const ConfigNode* first = node.Find(key)) {
+        const auto first = std::find_if(node.entries.begin(), node.entries.end(),
+                                        [&](const auto& e) { return e.key == key; });
+        if (first != node.entries.end()) {
+          const int first_line = first->key_origin.line;
           throw ConfigError(key_origin, key_path,
-                            fmt::format("given twice, first in line {}", first->origin.line));
+                            fmt::format("given twice, first in line {}", first_line));
         }
-        ConfigNode value = Convert(pair.second, file, key_path);
+        ConfigNode value = Convert(pair.second, file, key_path, depth + 1);
         if (value.origin.line == 0) value.origin = key_origin;  // an empty value has no mark
         node.entries.push_back({key, key_origin, std::move(value)});
       }
@@ -57,7 +64,10 @@ ConfigNode Convert(const YAML::Node& yaml, const std::string& file, const std::s
 
 ConfigNode ParseYaml(const std::string& text, const std::string& name) {
   try {
-    return Convert(YAML::Load(text), name, "");
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    if (documents.size() > 1)
+      throw ConfigError({name, 0, 0}, "", "holds more than one YAML document");
+    return documents.empty() ? ConfigNode{} : Convert(documents.front(), name, "");
   } catch (const YAML::Exception& e) {
     throw ConfigError(OriginOf(e.mark, name), "", "not valid YAML: " + e.msg);
   }
@@ -74,11 +84,13 @@ void ResolveBases(ConfigNode& node, const std::vector<fs::path>& chain) {
   if (base->kind != ConfigNode::Kind::kScalar) {
     throw ConfigError(base->origin, "base", "must be the path of a YAML file");
   }
-  const fs::path path = fs::path(base->origin.file).parent_path() / base->scalar;
+  const fs::path path = base->origin.Folder() / base->scalar;
   ConfigNode merged = LoadWithBases(path, base->origin, chain);
   std::erase_if(node.entries, [](const ConfigNode::Entry& e) { return e.key == "base"; });
+  node.has_base = false;
   MergeConfig(merged, node);
   merged.origin = node.origin;
+  merged.has_base = true;
   node = std::move(merged);
 }
 
@@ -99,6 +111,15 @@ ConfigNode LoadWithBases(const fs::path& file, const Origin& asked_by,
   ConfigNode node = ParseYaml(text.str(), normal.string());
   ResolveBases(node, chain);
   return node;
+}
+
+void SetOrigin(ConfigNode& node, const Origin& origin) {
+  node.origin = origin;
+  for (ConfigNode& item : node.items) SetOrigin(item, origin);
+  for (ConfigNode::Entry& entry : node.entries) {
+    entry.key_origin = origin;
+    SetOrigin(entry.value, origin);
+  }
 }
 
 /// Edits (insert, delete, replace) between two words.
@@ -158,6 +179,10 @@ void Emit(const ConfigNode& node, YAML::Emitter& out) {
 
 }  // namespace
 
+fs::path Origin::Folder() const {
+  return from_command_line ? fs::path() : fs::path(file).parent_path();
+}
+
 std::string Origin::ToString() const {
   return line > 0 ? fmt::format("{}:{}:{}", file, line, column) : file;
 }
@@ -193,7 +218,11 @@ void MergeConfig(ConfigNode& onto, const ConfigNode& over) {
   const ConfigNode* new_type = over.Find("type");
   const bool other_variant =
       old_type != nullptr && new_type != nullptr && old_type->scalar != new_type->scalar;
-  if (onto.kind != Kind::kMap || over.kind != Kind::kMap || other_variant) {
+  if (over.kind == Kind::kNull && onto.kind == Kind::kMap) {
+    throw ConfigError(over.origin, "",
+                      "an empty value cannot replace a section; leave the key out");
+  }
+  if (onto.kind != Kind::kMap || over.kind != Kind::kMap || other_variant || over.has_base) {
     onto = over;
     return;
   }
@@ -207,15 +236,20 @@ void MergeConfig(ConfigNode& onto, const ConfigNode& over) {
 }
 
 void ApplyOverride(ConfigNode& root, const std::string& assignment) {
-  const Origin origin{"--set " + assignment, 0, 0};
+  const Origin origin{"--set " + assignment, 0, 0, true};
   const std::size_t equals = assignment.find('=');
   if (equals == std::string::npos || equals == 0) {
     throw ConfigError(origin, "", "must read key.subkey=value");
   }
   ConfigNode value = ParseYaml(assignment.substr(equals + 1), origin.file);
+  SetOrigin(value, origin);
   ResolveBases(value, {});
-  value.origin = origin;
-  std::stringstream keys(assignment.substr(0, equals));
+  SetAt(root, assignment.substr(0, equals), std::move(value));
+}
+
+void SetAt(ConfigNode& root, const std::string& key_path, ConfigNode value) {
+  const Origin origin = value.origin;
+  std::stringstream keys(key_path);
   std::vector<std::string> path;
   for (std::string key; std::getline(keys, key, '.');) path.push_back(key);
   for (auto key = path.rbegin(); key != path.rend(); ++key) {

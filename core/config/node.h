@@ -14,6 +14,10 @@ namespace scoria::core {
 struct Origin {
   std::string file;
   int line = 0, column = 0;
+  bool from_command_line = false;
+  /// Folder that relative paths in the file are relative to; the working directory on the command
+  /// line.
+  [[nodiscard]] std::filesystem::path Folder() const;
   [[nodiscard]] std::string ToString() const;
 };
 
@@ -33,6 +37,7 @@ struct ConfigNode {
   std::vector<ConfigNode> items;
   std::vector<Entry> entries;
   Origin origin;
+  bool has_base = false;  // a map that named its own base: it replaces what it is laid over
 
   [[nodiscard]] const ConfigNode* Find(std::string_view key) const;
   [[nodiscard]] ConfigNode* Find(std::string_view key);
@@ -58,6 +63,9 @@ void MergeConfig(ConfigNode& onto, const ConfigNode& over);
 
 /// Applies one command-line override "a.b.c=value", the value in YAML.
 void ApplyOverride(ConfigNode& root, const std::string& assignment);
+
+/// Sets the value at "a.b.c", merging as MergeConfig does; its origin stays its own.
+void SetAt(ConfigNode& root, const std::string& key_path, ConfigNode value);
 
 /// YAML text that parses to an equal tree.
 [[nodiscard]] std::string EmitYaml(const ConfigNode& node);

@@ -16,6 +16,10 @@ namespace {
 constexpr std::array<unsigned char, 8> kMagic = {0x89, 'M', 'C', 'A', 'P', 0x30, '\r', '\n'};
 constexpr int kZstdLevel = 1;  // logs of noisy floats: higher levels cost time and gain nothing
 
+/// What rosbag2 wants to know of a channel: reliable, keep the last message.
+const McapMetadata kChannelMetadata = {
+    {"offered_qos_profiles", "- history: 1\n  depth: 1\n  reliability: 1\n  durability: 2\n"}};
+
 enum Op : std::uint8_t {
   kHeader = 0x01,
   kFooter = 0x02,
@@ -116,10 +120,12 @@ Bytes Decompress(const std::string& compression, std::span<const std::byte> pack
                  std::uint64_t size) {
   constexpr std::uint64_t kLargestChunk = std::uint64_t{1} << 32;
   if (size > kLargestChunk) throw std::runtime_error("chunk claims more than 4 GiB");
-  Bytes out(static_cast<std::size_t>(size));
   if (compression.empty()) {
-    out.assign(packed.begin(), packed.end());
-  } else if (compression == "zstd") {
+    if (size != packed.size()) throw std::runtime_error("plain chunk has a wrong size");
+    return {packed.begin(), packed.end()};
+  }
+  Bytes out(static_cast<std::size_t>(size));
+  if (compression == "zstd") {
     const std::size_t n = ZSTD_decompress(out.data(), out.size(), packed.data(), packed.size());
     if (ZSTD_isError(n) != 0 || n != out.size())
       throw std::runtime_error("chunk does not decompress");
@@ -303,7 +309,12 @@ void McapWriter::Write(std::uint16_t number, std::int64_t time_ns,
       schema.announced = true;
     }
     Bytes body;
-    Put(body).Int(number).Int(channel.schema).String(channel.topic).String("cdr").Map({});
+    Put(body)
+        .Int(number)
+        .Int(channel.schema)
+        .String(channel.topic)
+        .String("cdr")
+        .Map(kChannelMetadata);
     AppendRecord(chunk_, kChannel, body);
     channel.announced = true;
   }
@@ -373,6 +384,7 @@ void McapWriter::AddMetadata(const std::string& name, const McapMetadata& metada
 
 void McapWriter::WriteSummary() {
   const std::uint64_t summary_start = offset_;
+  const auto is_announced = [](const auto& item) { return item.announced; };
   Bytes summary, offsets;
   const auto group = [&](Op op, const auto& write_records) {
     const std::size_t before = summary.size();
@@ -387,6 +399,7 @@ void McapWriter::WriteSummary() {
   };
   group(kSchema, [&] {
     for (std::size_t i = 0; i < schemas_.size(); ++i) {
+      if (!schemas_[i].announced) continue;
       Bytes body;
       Put(body)
           .Int(static_cast<std::uint16_t>(i + 1))
@@ -398,25 +411,29 @@ void McapWriter::WriteSummary() {
   });
   group(kChannel, [&] {
     for (std::size_t i = 0; i < channels_.size(); ++i) {
+      if (!channels_[i].announced) continue;
       Bytes body;
       Put(body)
           .Int(static_cast<std::uint16_t>(i))
           .Int(channels_[i].schema)
           .String(channels_[i].topic)
           .String("cdr")
-          .Map({});
+          .Map(kChannelMetadata);
       AppendRecord(summary, kChannel, body);
     }
   });
   group(kStatistics, [&] {
     Bytes counts, body;
     for (std::size_t i = 0; i < channels_.size(); ++i) {
+      if (!channels_[i].announced) continue;
       Put(counts).Int(static_cast<std::uint16_t>(i)).Int(channels_[i].count);
     }
     Put(body)
         .Int(total_)
-        .Int(static_cast<std::uint16_t>(schemas_.size()))
-        .Int(static_cast<std::uint32_t>(channels_.size()))
+        .Int(static_cast<std::uint16_t>(
+            std::count_if(schemas_.begin(), schemas_.end(), is_announced)))
+        .Int(static_cast<std::uint32_t>(
+            std::count_if(channels_.begin(), channels_.end(), is_announced)))
         .Int(std::uint32_t{0})
         .Int(static_cast<std::uint32_t>(metadata_indexes_.size()))
         .Int(static_cast<std::uint32_t>(chunk_indexes_.size()))
@@ -490,7 +507,8 @@ std::string McapReader::ForEachMessage(const OnMessage& on_message) {
                                               : dispatcher.Handle(stream.op(), body);
       if (!more) return "";
     }
-  } catch (const std::runtime_error& e) {
+  } catch (
+      const std::exception& e) {  // also what the receiver throws at a message it cannot decode
     return fmt::format("{}: at byte {}: {}", path_.string(), stream.start(), e.what());
   }
   return fmt::format("{}: cut off at byte {}; everything before it was read", path_.string(),

@@ -44,11 +44,14 @@ TEST(Ratio, ZeroCountsAreHandled) {
       std::isinf(EstimateRateRatio(EstimateRate(6, 10.0), EstimateRate(0, 10.0)).interval.high));
 }
 
-TEST(Dispersion, SeesTerrainsThatDiffer) {
-  const std::vector<double> metres = {50, 50, 50, 50};
-  const std::vector<long> even = {5, 4, 6, 5}, uneven = {0, 0, 20, 0};
-  EXPECT_GT(CheckDispersion(even, metres).p_value, 0.5);
-  EXPECT_LT(CheckDispersion(uneven, metres).p_value, 1e-6);
+TEST(Shares, SeeTerrainsThatTreatTheArmsDifferentlyOnly) {
+  // Harder for both arms alike is no heterogeneity; hard for one arm only is.
+  const std::vector<PairedCounts> alike = {
+      {10, 20, 50, 50}, {1, 2, 50, 50}, {2, 4, 50, 50}, {5, 9, 50, 50}};
+  const std::vector<PairedCounts> unlike = {
+      {20, 1, 50, 50}, {1, 20, 50, 50}, {15, 2, 50, 50}, {2, 14, 50, 50}};
+  EXPECT_GT(CheckShares(alike).p_value, 0.5);
+  EXPECT_LT(CheckShares(unlike).p_value, 1e-6);
 }
 
 TEST(Bootstrap, BracketsTheRatioAndRepeats) {

@@ -47,12 +47,19 @@ TEST(FallMonitor, StuckNeedsACommandAndTenSeconds) {
   FallMonitor monitor({}, 0.3, 0.001);
   const Vec3 here = Vec3::Zero();
   int stuck = 0;
-  for (int i = 0; i < 9900; ++i) stuck += monitor.UpdateStuck(here, true);
+  for (int i = 0; i < 9900; ++i) stuck += monitor.UpdateStuck(here, 0.3);
   EXPECT_EQ(stuck, 0);
-  for (int i = 0; i < 200; ++i) stuck += monitor.UpdateStuck(here, true);
+  for (int i = 0; i < 200; ++i) stuck += monitor.UpdateStuck(here, 0.3);
   EXPECT_EQ(stuck, 1);
-  for (int i = 0; i < 30000; ++i) stuck += monitor.UpdateStuck(here, false);
+  for (int i = 0; i < 30000; ++i) stuck += monitor.UpdateStuck(here, 0.0);
   EXPECT_EQ(stuck, 1);
+}
+
+TEST(FallMonitor, SlowWalkThatKeepsItsPaceIsNotStuck) {
+  FallMonitor monitor({}, 0.3, 0.001);
+  int stuck = 0;
+  for (int i = 0; i < 40000; ++i) stuck += monitor.UpdateStuck({1e-5 * i, 0.0, 0.0}, 0.01);
+  EXPECT_EQ(stuck, 0);
 }
 
 }  // namespace

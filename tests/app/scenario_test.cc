@@ -40,9 +40,9 @@ TEST(Scenario, EffectiveYamlReadsBackToItself) {
 
 TEST(Scenario, ErrorsNameTheOverrideAndTheRule) {
   EXPECT_EQ(ErrorOf({"controller.mpc.horizon=40"}),
-            "--set controller.mpc.horizon=40:1:1: controller.mpc.horizon: 40 is outside [2, 20]");
+            "--set controller.mpc.horizon=40: controller.mpc.horizon: 40 is outside [2, 20]");
   EXPECT_EQ(ErrorOf({"controller.gait.type=trot"}),
-            "--set controller.gait.type=trot:1:1: controller.gait.type: unknown \"trot\"; choices: "
+            "--set controller.gait.type=trot: controller.gait.type: unknown \"trot\"; choices: "
             "ags, sgs, sgs_matched");
   EXPECT_EQ(ErrorOf({"controler.gait=3"}),
             "--set controler.gait=3: controler: unknown key (did you mean \"controller\"?)");

@@ -55,13 +55,18 @@ TEST_P(FlatGround, WalksAsCommanded) {
   EXPECT_LT(t.pitch_rmse_rad, 0.0175);
 }
 
-INSTANTIATE_TEST_SUITE_P(Gaits, FlatGround,
-                         ::testing::Values(Case{"ags", 0.1, 0, 0}, Case{"ags", 0.5, 0, 0},
-                                           Case{"ags", 1.0, 0, 0}, Case{"ags", 0, 0.3, 0},
-                                           Case{"ags", 0, 0, 0.8}, Case{"sgs", 0.1, 0, 0},
-                                           Case{"sgs", 0.5, 0, 0}, Case{"sgs", 1.0, 0, 0},
-                                           Case{"sgs", 0, 0.3, 0}, Case{"sgs", 0, 0, 0.8},
-                                           Case{"sgs_matched", 0.5, 0, 0}));
+INSTANTIATE_TEST_SUITE_P(
+    Gaits, FlatGround,
+    ::testing::Values(Case{"ags", 0.1, 0, 0}, Case{"ags", 0.5, 0, 0}, Case{"ags", 1.0, 0, 0},
+                      Case{"ags", 0, 0.3, 0}, Case{"ags", 0, 0, 0.8}, Case{"sgs", 0.1, 0, 0},
+                      Case{"sgs", 0.5, 0, 0}, Case{"sgs", 1.0, 0, 0}, Case{"sgs", 0, 0.3, 0},
+                      Case{"sgs", 0, 0, 0.8}, Case{"sgs_matched", 0.5, 0, 0}),
+    [](const auto& info) {
+      const Case& c = info.param;
+      std::string name = fmt::format("{}_x{}_y{}_yaw{}", c.gait, c.v_x, c.v_y, c.w_z);
+      std::replace(name.begin(), name.end(), '.', '_');
+      return name;
+    });
 
 TEST(Standing, DoesNotDrift) {
   const Outcome o = Walk(test::LoadScenario("flat", {"operator.steps=[]", "duration_s=20"}));

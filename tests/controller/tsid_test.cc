@@ -72,8 +72,10 @@ TEST(TsidNullspace, SolutionObeysMotionContactFrictionAndTorque) {
       EXPECT_TRUE((r.command.tau_Nm[leg].cwiseAbs() - limit).maxCoeff() < 1e-9);
       if (!setup.legs.InContact(leg)) continue;
       EXPECT_GE(r.f_F_W[leg].z(), params.f_min_N - 1e-6);
-      EXPECT_LE(std::abs(r.f_F_W[leg].x()), params.friction * r.f_F_W[leg].z() + 1e-6);
-      EXPECT_LE(std::abs(r.f_F_W[leg].y()), params.friction * r.f_F_W[leg].z() + 1e-6);
+      const Vec3 f_H =
+          core::RotationZ(core::RpyFromRotation(s.R_WB).z()).transpose() * r.f_F_W[leg];
+      EXPECT_LE(std::abs(f_H.x()), params.friction * f_H.z() + 1e-6);
+      EXPECT_LE(std::abs(f_H.y()), params.friction * f_H.z() + 1e-6);
       if (r.torque_rows_dropped) continue;  // clamped torques no longer hold the contact exactly
       const Vec3 down = -test::Go2().legs[leg].foot_radius_m * setup.n_W;
       const Vec3 qdd = a.segment<3>(6 + 3 * static_cast<int>(leg));
