@@ -87,7 +87,6 @@ CampaignAxis ReadAxis(const ConfigNode& node, std::size_t index) {
   for (const ConfigNode& value : axis.values) {
     std::string name =
         value.kind == ConfigNode::Kind::kScalar ? value.scalar : core::EmitYaml(value);
-    if (const ConfigNode* named = value.Find("name")) name = named->scalar;
     axis.names.push_back(name);
   }
   if (axis.label.empty()) axis.label = axis.key;

@@ -61,8 +61,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{"ags", 0, 0.3, 0}, Case{"ags", 0, 0, 0.8}, Case{"sgs", 0.1, 0, 0},
                       Case{"sgs", 0.5, 0, 0}, Case{"sgs", 1.0, 0, 0}, Case{"sgs", 0, 0.3, 0},
                       Case{"sgs", 0, 0, 0.8}, Case{"sgs_matched", 0.5, 0, 0}),
-    [](const auto& info) {
-      const Case& c = info.param;
+    [](const auto& test_info) {
+      const Case& c = test_info.param;
       std::string name = fmt::format("{}_x{}_y{}_yaw{}", c.gait, c.v_x, c.v_y, c.w_z);
       std::replace(name.begin(), name.end(), '.', '_');
       return name;
