@@ -13,6 +13,7 @@
 #include "analysis/report.h"
 #include "analysis/video/video.h"
 #include "app/campaign.h"
+#include "app/config_docs.h"
 #include "app/episode_files.h"
 #include "app/progress.h"
 #include "app/qp_sets.h"
@@ -217,6 +218,14 @@ void AddBench(CLI::App& app) {
   });
 }
 
+void AddSchema(CLI::App& app) {
+  auto markdown = std::make_shared<bool>(false);
+  CLI::App* schema = app.add_subcommand("schema", "print the scenario keys as a JSON Schema");
+  schema->add_flag("--markdown", *markdown, "as the table of docs/CONFIG.md");
+  schema->callback(
+      [markdown] { fmt::print("{}", *markdown ? ConfigMarkdown() : ConfigJsonSchema()); });
+}
+
 void AddVerify(CLI::App& app, int& exit_code) {
   auto log = std::make_shared<std::string>();
   CLI::App* verify = app.add_subcommand("verify", "re-run a log and compare it bit for bit");
@@ -241,6 +250,7 @@ void AddCommands(CLI::App& app, int& exit_code) {
   AddCampaign(app, exit_code);
   AddReport(app);
   AddBench(app);
+  AddSchema(app);
   AddRender(app);
   AddVerify(app, exit_code);
 }
