@@ -6,24 +6,18 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 
 #include <fmt/format.h>
 
 #include "analysis/compare.h"
+#include "core/files.h"
 
 namespace scoria::analysis {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kDegrees = 180.0 / 3.14159265358979323846;
-
-std::string FileName(const std::string& text) {
-  std::string out = text;
-  std::replace_if(
-      out.begin(), out.end(), [](char c) { return std::isalnum(c) == 0 && c != '.' && c != '-'; },
-      '_');
-  return out;
-}
+constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 /// Points that agree with `fixed` in every axis but `free`, in the order of the free axis' values.
 std::vector<std::vector<std::string>> Along(const std::vector<Axis>& axes, std::size_t free,
@@ -50,8 +44,9 @@ CaptionedFigure FallFigure(const CampaignResults& results, std::size_t axis,
                            const std::vector<std::string>& fixed) {
   const std::string others = Others(results.axes, axis, fixed);
   const std::string title = others.empty() ? "Falls per metre" : "Falls per metre, " + others;
-  Figure figure("falls_" + FileName(results.axes[axis].key + (others.empty() ? "" : "_" + others)),
-                title);
+  Figure figure(
+      "falls_" + core::FileNameOf(results.axes[axis].key + (others.empty() ? "" : "_" + others)),
+      title);
   std::string plots, arrows;
   double smallest = 1.0;
   bool any = false;
@@ -251,7 +246,7 @@ std::vector<CaptionedFigure> ArmFigures(const CampaignResults& results) {
 }
 
 CaptionedFigure TimeFigure(const LogContent& log, const std::string& name) {
-  Figure figure("time_" + FileName(name), "Course of " + name, 1000, 900);
+  Figure figure("time_" + core::FileNameOf(name), "Course of " + name, 1000, 900);
   constexpr std::size_t kMaxPoints = 4000;
   const std::size_t every = std::max<std::size_t>(1, log.rows.size() / kMaxPoints);
   std::vector<std::vector<double>> rows;

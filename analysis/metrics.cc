@@ -188,7 +188,8 @@ EpisodeMetrics MetricsAccumulator::Finish() {
   EndStretch();
   EpisodeMetrics m = metrics_;
   const double work_J = m.mass_kg * gravity_mps2_ * m.distance_m;
-  if (work_J > 0.0) {
+  constexpr double kLeastWay_m = 1.0;  // standing and turning in place have no cost of transport
+  if (m.distance_m > kLeastWay_m) {
     m.cot_mech_abs = m.energy.mech_abs_J / work_J;
     m.cot_mech_pos = m.energy.mech_pos_J / work_J;
     m.cot_electrical = m.energy.electrical_J / work_J;

@@ -13,25 +13,13 @@
 #include "analysis/compare.h"
 #include "analysis/figures.h"
 #include "analysis/html.h"
+#include "core/files.h"
 
 namespace scoria::analysis {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double kDegrees = 180.0 / 3.14159265358979323846;
-
-std::string ReadText(const fs::path& path) {
-  std::ifstream in(path);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
-void WriteText(const fs::path& path, const std::string& text) {
-  std::ofstream out(path);
-  out << text;
-  if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot write", path.string()));
-}
+constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 std::vector<Cell> AllCells(const CampaignResults& results) {
   std::vector<Cell> cells;
@@ -197,7 +185,8 @@ void AddFigures(const std::vector<CaptionedFigure>& figures, const fs::path& fol
                 HtmlPage& page) {
   for (const CaptionedFigure& f : figures) {
     f.figure.Render(folder);
-    page.InlineSvg(ReadText(folder / (f.figure.name() + ".svg")), f.figure.title(), f.caption);
+    page.InlineSvg(core::ReadText(folder / (f.figure.name() + ".svg")), f.figure.title(),
+                   f.caption);
   }
 }
 
@@ -257,7 +246,7 @@ void WriteTables(const CampaignResults& results, const std::vector<Cell>& cells,
                        m.tracking.roll_rmse_rad, m.tracking.pitch_rmse_rad, m.mpc.median_s,
                        m.mpc.p99_s, m.wbc.median_s, m.wbc.p99_s, e.real_time_factor);
   }
-  WriteText(folder / "metrics.csv", csv);
+  core::WriteText(folder / "metrics.csv", csv);
 
   nlohmann::json json = {{"name", results.name},
                          {"cells", nlohmann::json::array()},
@@ -288,7 +277,7 @@ void WriteTables(const CampaignResults& results, const std::vector<Cell>& cells,
                                      {"verdict", c.verdict}});
     }
   }
-  WriteText(folder / "metrics.json", json.dump(2) + "\n");
+  core::WriteText(folder / "metrics.json", json.dump(2) + "\n");
 }
 
 }  // namespace
@@ -319,7 +308,7 @@ fs::path WriteReport(const fs::path& folder) {
       "(cells, comparisons); figures with "
       "their gnuplot scripts: figures/.");
   const fs::path file = out / "report.html";
-  WriteText(file, page.Finish());
+  core::WriteText(file, page.Finish());
   WriteTables(results, cells, out);
   return file;
 }

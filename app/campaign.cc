@@ -18,6 +18,7 @@
 #include "app/progress.h"
 #include "app/scenario.h"
 #include "app/version.h"
+#include "core/files.h"
 
 namespace scoria::app {
 namespace {
@@ -101,13 +102,6 @@ struct Job {
   std::string scenario_yaml;
 };
 
-std::string FileName(const std::string& text) {
-  std::string out = text;
-  std::replace_if(
-      out.begin(), out.end(), [](char c) { return !std::isalnum(c) && c != '.' && c != '-'; }, '_');
-  return out;
-}
-
 /// Every combination of the axes' values, by index.
 void AddJobs(const Campaign& campaign, const CampaignArm& arm, std::vector<std::size_t>& point,
              std::vector<Job>& jobs) {
@@ -128,10 +122,10 @@ void AddJobs(const Campaign& campaign, const CampaignArm& arm, std::vector<std::
     Job job;
     job.arm = arm.name;
     job.seed = scenario.seed = campaign.first_seed + static_cast<std::uint64_t>(k);
-    job.id = FileName(arm.name);
+    job.id = core::FileNameOf(arm.name);
     for (std::size_t i = 0; i < point.size(); ++i) {
       job.point.push_back(campaign.sweep[i].names[point[i]]);
-      job.id += "-" + FileName(job.point.back());
+      job.id += "-" + core::FileNameOf(job.point.back());
     }
     job.id += fmt::format("-s{}", job.seed);
     scenario.name = job.id;
@@ -158,19 +152,6 @@ std::vector<Job> AllJobs(const Campaign& campaign) {
   return jobs;
 }
 
-std::string ReadText(const fs::path& path) {
-  std::ifstream in(path);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
-void WriteText(const fs::path& path, const std::string& text) {
-  std::ofstream out(path);
-  out << text;
-  if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot write", path.string()));
-}
-
 /// Starts `scoria run` on a job; its output goes to the episode's folder.
 pid_t StartWorker(const std::string& program, const fs::path& folder) {
   const std::string scenario = (folder / "job.yaml").string(), out = folder.string(),
@@ -188,19 +169,21 @@ pid_t StartWorker(const std::string& program, const fs::path& folder) {
 void WriteCrash(const fs::path& folder, const Job& job, int status) {
   const std::string how = WIFSIGNALED(status) ? fmt::format("signal {}", WTERMSIG(status))
                                               : fmt::format("exit code {}", WEXITSTATUS(status));
-  const nlohmann::json json = {{"scenario", job.id}, {"seed", job.seed},
-                               {"end", "crashed"},   {"version", kVersion},
-                               {"how", how},         {"message", ReadText(folder / "worker.txt")}};
-  WriteText(folder / "result.json",
-            json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  const nlohmann::json json = {
+      {"scenario", job.id}, {"seed", job.seed},
+      {"end", "crashed"},   {"version", kVersion},
+      {"how", how},         {"message", core::ReadText(folder / "worker.txt")}};
+  core::WriteText(folder / "result.json",
+                  json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 /// A result of this very scenario by this very version, not of an interrupted episode.
 bool IsDone(const fs::path& folder, const Job& job) {
-  if (!fs::exists(folder / "result.json") || ReadText(folder / "job.yaml") != job.scenario_yaml)
+  if (!fs::exists(folder / "result.json") ||
+      core::ReadText(folder / "job.yaml") != job.scenario_yaml)
     return false;
   const nlohmann::json result =
-      nlohmann::json::parse(ReadText(folder / "result.json"), nullptr, false);
+      nlohmann::json::parse(core::ReadText(folder / "result.json"), nullptr, false);
   return !result.is_discarded() && result.value("end", "interrupted") != "interrupted" &&
          result.value("version", "") == kVersion;
 }
@@ -218,7 +201,7 @@ void WriteIndex(const Campaign& campaign, const std::vector<Job>& jobs, const fs
     index["episodes"].push_back(
         {{"id", job.id}, {"arm", job.arm}, {"point", job.point}, {"seed", job.seed}});
   }
-  WriteText(folder / "campaign.json", index.dump(2) + "\n");
+  core::WriteText(folder / "campaign.json", index.dump(2) + "\n");
 }
 
 }  // namespace
@@ -284,7 +267,7 @@ CampaignOutcome RunCampaign(const Campaign& campaign, const CampaignOptions& opt
       const fs::path folder = episodes / job.id;
       fs::remove_all(folder);
       fs::create_directories(folder);
-      WriteText(folder / "job.yaml", job.scenario_yaml);
+      core::WriteText(folder / "job.yaml", job.scenario_yaml);
       const pid_t pid = StartWorker(options.program, folder);
       if (pid < 0) throw std::runtime_error("cannot start a worker process");
       running[pid] = &job;
@@ -314,7 +297,7 @@ CampaignOutcome RunCampaign(const Campaign& campaign, const CampaignOptions& opt
       WriteCrash(folder, job, status);
       ++outcome.crashed;
     } else {
-      falls += nlohmann::json::parse(ReadText(folder / "result.json")).at("falls").get<int>();
+      falls += nlohmann::json::parse(core::ReadText(folder / "result.json")).at("falls").get<int>();
     }
     ++done;
   }

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <fstream>
 #include <memory>
+#include <numbers>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -35,7 +36,7 @@ void PrintSummary(const Scenario& scenario, const EpisodeReport& report,
   const EpisodeResult& r = report.result;
   const analysis::EpisodeMetrics& m = report.metrics;
   const analysis::TrackingErrors& t = m.tracking;
-  constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
   fmt::print("{}: {} after {:.1f} s, {:.1f} m walked, {} falls, {} times stuck\n", scenario.name,
              core::EnumName(r.end), r.duration_s, m.distance_m, r.falls, r.stuck);
   fmt::print(

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/version.h"
+#include "core/files.h"
 #include "terrains/generator.h"
 
 namespace scoria::app {
@@ -24,19 +25,13 @@ nlohmann::json TerrainJson(const terrains::TerrainStatistics& s) {
           {"slope_95_rad", s.slope_95_rad}};
 }
 
-void WriteText(const fs::path& path, const std::string& text) {
-  std::ofstream out(path);
-  out << text;
-  if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot write", path.string()));
-}
-
 }  // namespace
 
 EpisodeReport RunToFolder(const Scenario& scenario, const RunOptions& options) {
   const core::RobotDescription robot = core::LoadRobot(scenario.robot);
   fs::create_directories(options.folder);
   fs::remove(options.folder / "result.json");  // an old result must not stand beside a new scenario
-  WriteText(options.folder / "scenario.yaml", EffectiveYaml(scenario));
+  core::WriteText(options.folder / "scenario.yaml", EffectiveYaml(scenario));
   const terrains::Heightfield ground =
       terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);
   const nlohmann::json terrain = TerrainJson(terrains::MeasureTerrain(ground, scenario.terrain));
@@ -92,7 +87,7 @@ EpisodeReport RunToFolder(const Scenario& scenario, const RunOptions& options) {
       {"controller_us_per_step", r.controller_s / simulated_s * scenario.physics.step_s * 1e6},
       {"terrain", terrain},
       {"metrics", report.metrics}};
-  WriteText(options.folder / "result.json.part", json.dump(2) + "\n");
+  core::WriteText(options.folder / "result.json.part", json.dump(2) + "\n");
   fs::rename(options.folder / "result.json.part",
              options.folder / "result.json");  // whole or not at all
   return report;

@@ -276,7 +276,7 @@ void World::Impl::ReadContacts() {
     truth.f_F_W[leg].setZero();
     truth.f_normal_N[leg] = truth.penetration_m[leg] = 0.0;
   }
-  Vec3 f_trunk = Vec3::Zero(), f_legs = Vec3::Zero();
+  Vec3 f_trunk = Vec3::Zero();
   for (int m = 0; m < dispatcher.getNumManifolds(); ++m) {
     const btPersistentManifold* manifold = dispatcher.getManifoldByIndexInternal(m);
     const auto* first = btMultiBodyLinkCollider::upcast(manifold->getBody0());
@@ -297,13 +297,10 @@ void World::Impl::ReadContacts() {
         truth.penetration_m[leg] = -point.getDistance();
       } else if (collider->m_link < 0) {
         f_trunk += f_W;
-      } else {
-        f_legs += f_W;
       }
     }
   }
   truth.trunk_force_N = f_trunk.norm();
-  truth.leg_force_N = f_legs.norm();
 }
 
 void World::Impl::UpdateTruth(const Vec3& v_before_W, bool stepped) {

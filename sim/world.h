@@ -32,7 +32,6 @@ struct Truth {
   LegArray<double> f_normal_N;          // its share along the ground's normal
   LegArray<double> penetration_m;       // > 0 inside the ground
   double trunk_force_N = 0.0;           // magnitude of all ground force on the trunk
-  double leg_force_N = 0.0;             // ... on thighs and shanks (not the feet)
   bool operator==(const Truth&) const = default;
 };
 

@@ -49,9 +49,6 @@ class ReferencePlanner {
                                    double stage_s, double dt_s) noexcept;
 
   [[nodiscard]] const GroundPlane& plane() const noexcept { return plane_; }
-  /// Commanded velocity after the ramps, in H.
-  [[nodiscard]] const Vec2& v_ramped_H() const noexcept { return v_H_; }
-  [[nodiscard]] double w_z_ramped_radps() const noexcept { return w_z_; }
 
  private:
   void Ramp(const Command& command, double dt_s) noexcept;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/scenario.h"
 
-#include <gtest/gtest.h>
-
 #include <fstream>
 #include <regex>
 #include <sstream>
+
+#include <gtest/gtest.h>
 
 #include "app/campaign.h"
 #include "app/config_docs.h"
@@ -57,7 +57,8 @@ TEST(Docs, ConfigTableIsCurrent) {
   std::ifstream in(test::SourcePath("docs/CONFIG.md"));
   std::stringstream text;
   text << in.rdbuf();
-  EXPECT_EQ(text.str(), ConfigMarkdown()) << "run: build/release/bin/scoria schema --markdown > docs/CONFIG.md";
+  EXPECT_EQ(text.str(), ConfigMarkdown())
+      << "run: build/release/bin/scoria schema --markdown > docs/CONFIG.md";
 }
 
 // Every source that a docstring cites in brackets stands in the list of references.
@@ -69,13 +70,15 @@ TEST(Docs, EveryCitationHasItsReference) {
   const std::regex citation(R"(\[([A-Z][A-Za-z]+[0-9]{4}|MCAP)\])");
   int cited = 0;
   for (const char* folder : {"core", "terrains", "sim", "controller", "analysis", "app"}) {
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(test::SourcePath(folder))) {
+    for (const auto& entry :
+         std::filesystem::recursive_directory_iterator(test::SourcePath(folder))) {
       if (!entry.is_regular_file()) continue;
       std::ifstream file(entry.path());
       for (std::string line; std::getline(file, line);) {
         for (std::sregex_iterator it(line.begin(), line.end(), citation), end; it != end; ++it) {
           ++cited;
-          EXPECT_NE(references.find("[" + (*it)[1].str() + "]"), std::string::npos) << entry.path() << ": " << (*it)[0];
+          EXPECT_NE(references.find("[" + (*it)[1].str() + "]"), std::string::npos)
+              << entry.path() << ": " << (*it)[0];
         }
       }
     }
