@@ -10,6 +10,8 @@ class AllocationGuard {
   AllocationGuard();
   ~AllocationGuard();
   [[nodiscard]] long count() const;
+  /// False in builds that cannot count.
+  [[nodiscard]] static bool IsArmed();
 };
 
 }  // namespace scoria::test
