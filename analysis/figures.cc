@@ -207,7 +207,8 @@ CaptionedFigure SolveTimeFigure(const CampaignResults& results) {
   }
   figure.Data("s", rows);
   figure.Line(
-      "set multiplot layout 1,2; set style fill solid 0.8; set boxwidth 0.35; set key top left");
+      "set multiplot layout 1,2; set style fill solid 0.8; set boxwidth 0.35; set key top center "
+      "horizontal; set offsets 0, 0, graph 0.15, 0");
   figure.Line(fmt::format("set xtics ({}); set yrange [0:*]; set xrange [-0.6:{}]", ticks,
                           static_cast<double>(results.arms.size()) - 0.4));
   figure.Line(

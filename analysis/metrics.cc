@@ -12,6 +12,7 @@ namespace {
 constexpr double kChord_s = 0.5;
 constexpr double kWindow_s = 5.0;
 constexpr double kSettle_s = 3.0;  // after the command changed
+constexpr double kSameShare = 0.15;
 constexpr double kSameCommand_mps =
     0.05;                          // a follower's small corrections do not count as a change
 constexpr double kStride_s = 0.5;  // averaging time where the log names no period
@@ -40,11 +41,14 @@ bool IsStop(const core::LogRow& row) {
   return row.cmd_v_x_mps == 0.0 && row.cmd_v_y_mps == 0.0 && row.cmd_w_z_radps == 0.0;
 }
 
-/// Against the command at the start of the steady stretch, so that slow drifts count too.
+/// Against the command at the start of the steady stretch, so that slow drifts count too; the small
+/// corrections of somebody who steers along a route do not.
 bool SameCommand(const core::LogRow& a, const core::LogRow& b) {
-  constexpr double kSameYaw_radps = 0.3;  // a follower's steering
-  return std::abs(a.cmd_v_x_mps - b.cmd_v_x_mps) < kSameCommand_mps &&
-         std::abs(a.cmd_v_y_mps - b.cmd_v_y_mps) < kSameCommand_mps &&
+  constexpr double kSameYaw_radps = 0.6;
+  const double margin_mps =
+      kSameCommand_mps + kSameShare * std::max(CommandSpeed(a), CommandSpeed(b));
+  return std::abs(a.cmd_v_x_mps - b.cmd_v_x_mps) < margin_mps &&
+         std::abs(a.cmd_v_y_mps - b.cmd_v_y_mps) < margin_mps &&
          std::abs(a.cmd_w_z_radps - b.cmd_w_z_radps) < kSameYaw_radps && IsStop(a) == IsStop(b);
 }
 
