@@ -12,9 +12,9 @@ namespace {
 constexpr double kChord_s = 0.5;
 constexpr double kWindow_s = 5.0;
 constexpr double kSettle_s = 3.0;  // after the command changed
-constexpr double kSameShare = 0.15;
-constexpr double kSameCommand_mps =
-    0.05;                          // a follower's small corrections do not count as a change
+// A command that differs by less than this and this share of the speed is the same: steering along
+// a route.
+constexpr double kSameCommand_mps = 0.05, kSameShare = 0.15;
 constexpr double kStride_s = 0.5;  // averaging time where the log names no period
 
 TimeQuantiles Quantiles(std::vector<double>& samples) {
