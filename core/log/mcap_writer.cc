@@ -1,45 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/log/mcap.h"
-
 #include <algorithm>
-#include <array>
-#include <cstring>
 #include <stdexcept>
 
-#include <lz4frame.h>
-#include <zlib.h>
 #include <zstd.h>
+
+#include "core/log/mcap.h"
+#include "core/log/mcap_format.h"
 
 namespace scoria::core {
 namespace {
 
-constexpr std::array<unsigned char, 8> kMagic = {0x89, 'M', 'C', 'A', 'P', 0x30, '\r', '\n'};
+using namespace mcap_format;  // this file writes the format
+
 constexpr int kZstdLevel = 1;  // logs of noisy floats: higher levels cost time and gain nothing
 
 /// What rosbag2 wants to know of a channel: reliable, keep the last message.
 const McapMetadata kChannelMetadata = {
     {"offered_qos_profiles", "- history: 1\n  depth: 1\n  reliability: 1\n  durability: 2\n"}};
-
-enum Op : std::uint8_t {
-  kHeader = 0x01,
-  kFooter = 0x02,
-  kSchema = 0x03,
-  kChannel = 0x04,
-  kMessage = 0x05,
-  kChunk = 0x06,
-  kMessageIndex = 0x07,
-  kChunkIndex = 0x08,
-  kStatistics = 0x0B,
-  kMetadata = 0x0C,
-  kMetadataIndex = 0x0D,
-  kSummaryOffset = 0x0E,
-  kDataEnd = 0x0F,
-};
-
-std::uint32_t Crc(std::span<const std::byte> bytes, std::uint32_t start = 0) {
-  return static_cast<std::uint32_t>(
-      crc32_z(start, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
-}
 
 /// Appends little-endian values to a byte vector.
 class Put {
@@ -77,182 +54,6 @@ void AppendRecord(Bytes& out, Op op, const Bytes& body) {
       .Int(static_cast<std::uint64_t>(body.size()))
       .Raw(body);
 }
-
-/// Takes little-endian values off the front; throws at the end of the data.
-class Take {
- public:
-  explicit Take(std::span<const std::byte> bytes) : bytes_(bytes) {}
-  template <class T>
-  T Int() {
-    const auto raw = Raw(sizeof(T));
-    std::uint64_t value = 0;
-    for (std::size_t i = 0; i < sizeof(T); ++i) {
-      value |= static_cast<std::uint64_t>(raw[i]) << (8 * i);
-    }
-    return static_cast<T>(value);
-  }
-  std::span<const std::byte> Raw(std::uint64_t size) {
-    if (size > bytes_.size()) throw std::runtime_error("record ends early");
-    const auto head = bytes_.first(static_cast<std::size_t>(size));
-    bytes_ = bytes_.subspan(static_cast<std::size_t>(size));
-    return head;
-  }
-  std::string String() {
-    const auto raw = Raw(Int<std::uint32_t>());
-    return {reinterpret_cast<const char*>(raw.data()), raw.size()};
-  }
-  McapMetadata Map() {
-    Take body(Raw(Int<std::uint32_t>()));
-    McapMetadata map;
-    while (!body.empty()) {
-      const std::string key = body.String();
-      map[key] = body.String();
-    }
-    return map;
-  }
-  [[nodiscard]] bool empty() const { return bytes_.empty(); }
-
- private:
-  std::span<const std::byte> bytes_;
-};
-
-Bytes Decompress(const std::string& compression, std::span<const std::byte> packed,
-                 std::uint64_t size) {
-  constexpr std::uint64_t kLargestChunk = std::uint64_t{1} << 32;
-  if (size > kLargestChunk) throw std::runtime_error("chunk claims more than 4 GiB");
-  if (compression.empty()) {
-    if (size != packed.size()) throw std::runtime_error("plain chunk has a wrong size");
-    return {packed.begin(), packed.end()};
-  }
-  Bytes out(static_cast<std::size_t>(size));
-  if (compression == "zstd") {
-    const std::size_t n = ZSTD_decompress(out.data(), out.size(), packed.data(), packed.size());
-    if (ZSTD_isError(n) != 0 || n != out.size())
-      throw std::runtime_error("chunk does not decompress");
-  } else if (compression == "lz4") {
-    LZ4F_dctx* context = nullptr;
-    if (LZ4F_isError(LZ4F_createDecompressionContext(&context, LZ4F_VERSION)) != 0) {
-      throw std::runtime_error("no memory for lz4");
-    }
-    std::size_t done = 0, used = 0, hint = 1;
-    while (hint != 0 && used < packed.size() && LZ4F_isError(hint) == 0) {
-      std::size_t to = out.size() - done, from = packed.size() - used;
-      hint = LZ4F_decompress(context, out.data() + done, &to, packed.data() + used, &from, nullptr);
-      done += to;
-      used += from;
-      if (to == 0 && from == 0) break;
-    }
-    LZ4F_freeDecompressionContext(context);
-    if (hint != 0 || done != out.size()) throw std::runtime_error("chunk does not decompress");
-  } else {
-    throw std::runtime_error("unknown compression " + compression);
-  }
-  return out;
-}
-
-/// Reads (opcode, body) records off a file and says where it stands.
-class RecordStream {
- public:
-  explicit RecordStream(const std::filesystem::path& path) : in_(path, std::ios::binary) {
-    if (!in_) throw std::runtime_error(fmt::format("{}: cannot read the file", path.string()));
-    std::array<unsigned char, 8> magic{};
-    in_.read(reinterpret_cast<char*>(magic.data()), magic.size());
-    if (in_.gcount() != 8 || magic != kMagic) {
-      throw std::runtime_error(fmt::format("{}: not an MCAP file", path.string()));
-    }
-    size_ = std::filesystem::file_size(path);
-    position_ = kMagic.size();
-  }
-
-  /// @returns false at the end of the data or where the file is cut.
-  bool Next() {
-    start_ = position_;
-    std::array<std::byte, 9> head;
-    in_.read(reinterpret_cast<char*>(head.data()), head.size());
-    if (in_.gcount() != 9) return false;
-    Take take(head);
-    op_ = take.Int<std::uint8_t>();
-    length_ = take.Int<std::uint64_t>();
-    position_ += 9;
-    return length_ <= size_ - position_;
-  }
-  [[nodiscard]] std::uint8_t op() const { return op_; }
-  [[nodiscard]] std::uint64_t start() const { return start_; }
-  std::span<const std::byte> Body() {
-    body_.resize(static_cast<std::size_t>(length_));
-    in_.read(reinterpret_cast<char*>(body_.data()), static_cast<std::streamsize>(length_));
-    position_ += length_;
-    return body_;
-  }
-  void Skip() {
-    in_.seekg(static_cast<std::streamoff>(length_), std::ios::cur);
-    position_ += length_;
-  }
-
- private:
-  std::ifstream in_;
-  std::uint64_t size_ = 0, position_ = 0, start_ = 0, length_ = 0;
-  std::uint8_t op_ = 0;
-  Bytes body_;
-};
-
-/// Schemas and channels seen so far, and how to hand on their messages.
-class MessageDispatcher {
- public:
-  explicit MessageDispatcher(const McapReader::OnMessage& on_message) : on_message_(on_message) {}
-
-  /// @returns false when the receiver has seen enough.
-  bool Handle(std::uint8_t op, std::span<const std::byte> body) {
-    Take take(body);
-    if (op == kSchema) {
-      const auto id = take.Int<std::uint16_t>();
-      Schema& schema = schemas_[id];
-      schema.name = take.String();
-      take.String();  // encoding
-      const auto text = take.Raw(take.Int<std::uint32_t>());
-      schema.text.assign(reinterpret_cast<const char*>(text.data()), text.size());
-    } else if (op == kChannel) {
-      const auto id = take.Int<std::uint16_t>();
-      const Schema& schema = schemas_[take.Int<std::uint16_t>()];
-      const std::string topic = take.String();
-      channels_[id] = {topic, schema.name, schema.text, take.String()};
-    } else if (op == kMessage) {
-      const auto channel = channels_.find(take.Int<std::uint16_t>());
-      if (channel == channels_.end()) throw std::runtime_error("message of an unknown channel");
-      take.Int<std::uint32_t>();  // sequence
-      const auto time = take.Int<std::uint64_t>();
-      take.Int<std::uint64_t>();  // publish time
-      const std::size_t head = 2 + 4 + 8 + 8;
-      return on_message_({channel->second, static_cast<std::int64_t>(time), body.subspan(head)});
-    }
-    return true;
-  }
-
-  bool HandleChunk(std::span<const std::byte> body) {
-    Take take(body);
-    take.Int<std::uint64_t>();
-    take.Int<std::uint64_t>();
-    const auto size = take.Int<std::uint64_t>();
-    const auto crc = take.Int<std::uint32_t>();
-    const std::string compression = take.String();
-    const Bytes records = Decompress(compression, take.Raw(take.Int<std::uint64_t>()), size);
-    if (crc != 0 && Crc(records) != crc) throw std::runtime_error("chunk has a wrong checksum");
-    Take inner(records);
-    while (!inner.empty()) {
-      const auto op = inner.Int<std::uint8_t>();
-      if (!Handle(op, inner.Raw(inner.Int<std::uint64_t>()))) return false;
-    }
-    return true;
-  }
-
- private:
-  struct Schema {
-    std::string name, text;
-  };
-  const McapReader::OnMessage& on_message_;
-  std::map<std::uint16_t, Schema> schemas_;
-  std::map<std::uint16_t, McapReader::ChannelInfo> channels_;
-};
 
 }  // namespace
 
@@ -484,51 +285,6 @@ void McapWriter::Close() {
   Emit(bytes);
   WriteSummary();
   out_.close();
-}
-
-McapReader::McapReader(std::filesystem::path path) : path_(std::move(path)) {
-  RecordStream check(path_);  // throws if unreadable
-}
-
-std::string McapReader::ForEachMessage(const OnMessage& on_message) {
-  RecordStream stream(path_);
-  MessageDispatcher dispatcher(on_message);
-  try {
-    while (stream.Next()) {
-      if (stream.op() == kDataEnd || stream.op() == kFooter) return "";
-      const bool wanted = stream.op() == kChunk || stream.op() == kSchema ||
-                          stream.op() == kChannel || stream.op() == kMessage;
-      if (!wanted) {
-        stream.Skip();
-        continue;
-      }
-      const auto body = stream.Body();
-      const bool more = stream.op() == kChunk ? dispatcher.HandleChunk(body)
-                                              : dispatcher.Handle(stream.op(), body);
-      if (!more) return "";
-    }
-  } catch (
-      const std::exception& e) {  // also what the receiver throws at a message it cannot decode
-    return fmt::format("{}: at byte {}: {}", path_.string(), stream.start(), e.what());
-  }
-  return fmt::format("{}: cut off at byte {}; everything before it was read", path_.string(),
-                     stream.start());
-}
-
-std::map<std::string, McapMetadata> McapReader::ReadMetadata() const {
-  std::map<std::string, McapMetadata> all;
-  RecordStream stream(path_);
-  while (stream.Next()) {
-    if (stream.op() == kDataEnd || stream.op() == kFooter) break;
-    if (stream.op() != kMetadata) {
-      stream.Skip();
-      continue;
-    }
-    Take take(stream.Body());
-    const std::string name = take.String();
-    all[name] = take.Map();
-  }
-  return all;
 }
 
 }  // namespace scoria::core
