@@ -161,24 +161,51 @@ void AddCells(const CampaignResults& results, const std::vector<Cell>& cells, Ht
   page.Table(header, rows);
 }
 
-void AddTerrain(const CampaignResults& results, HtmlPage& page) {
-  double nu_low = 1e9, nu_high = 0.0, hurst = 0.0, slope = 0.0;
-  int n = 0;
+/// Range over the episodes of one number of the ground.
+template <class Get>
+std::string TerrainRange(const CampaignResults& results, const char* format, Get get) {
+  double low = 1e300, high = -1e300;
   for (const EpisodeRecord& e : results.episodes) {
     if (!e.has_metrics) continue;
-    nu_low = std::min(nu_low, e.terrain_nu_1m_m);
-    nu_high = std::max(nu_high, e.terrain_nu_1m_m);
-    hurst += e.terrain_hurst;
-    slope += e.terrain_slope_mean_rad;
-    ++n;
+    low = std::min(low, get(e.terrain));
+    high = std::max(high, get(e.terrain));
   }
-  if (n == 0) return;
+  const std::string from = fmt::format(fmt::runtime(format), low);
+  const std::string to = fmt::format(fmt::runtime(format), high);
+  return from == to ? from : from + " to " + to;
+}
+
+void AddTerrain(const CampaignResults& results, HtmlPage& page) {
+  using terrains::TerrainStatistics;
+  std::map<std::string, std::pair<double, int>> materials;  // sum of fractions, grounds with it
+  for (const EpisodeRecord& e : results.episodes) {
+    for (const auto& [name, fraction] : e.terrain.materials) {
+      materials[name].first += fraction;
+      ++materials[name].second;
+    }
+  }
+  if (materials.empty()) return;
   page.Heading("Ground, as measured on its grids");
-  page.Paragraph(
-      fmt::format("RMS height difference at 1 m, base slope removed: {:.3f} to {:.3f} m; mean "
-                  "Hurst exponent {:.2f}; "
-                  "mean slope at the grid spacing {:.1f} deg.",
-                  nu_low, nu_high, hurst / n, slope / n * kDegrees));
+  const auto row = [&](const char* name, const char* format, auto get) {
+    return std::vector<std::string>{name, TerrainRange(results, format, get)};
+  };
+  std::vector<std::vector<std::string>> rows = {
+      row("RMS height difference at 0.1 m [m]", "{:.3f}",
+          [](const TerrainStatistics& t) { return t.nu_10cm_m; }),
+      row("at 0.25 m [m]", "{:.3f}", [](const TerrainStatistics& t) { return t.nu_25cm_m; }),
+      row("at 1 m [m]", "{:.3f}", [](const TerrainStatistics& t) { return t.nu_1m_m; }),
+      row("Hurst exponent", "{:.2f}", [](const TerrainStatistics& t) { return t.hurst; }),
+      row("mean slope at the grid spacing [deg]", "{:.1f}",
+          [](const TerrainStatistics& t) { return t.slope_mean_rad * kDegrees; }),
+      row("95 % of slopes below [deg]", "{:.1f}",
+          [](const TerrainStatistics& t) { return t.slope_95_rad * kDegrees; })};
+  for (const auto& [name, sum] : materials)
+    rows.push_back(
+        {name + " [% of the area]", fmt::format("{:.1f}", 100.0 * sum.first / sum.second)});
+  page.Table({"quantity", "value over the episodes"}, rows);
+  page.Note(
+      "Heights with their mean plane removed; materials in the mean of the grounds that have "
+      "them.");
 }
 
 void AddFigures(const std::vector<CaptionedFigure>& figures, const fs::path& folder,

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "analysis/terrain_view.h"
 namespace scoria::analysis {
 namespace {
 
@@ -46,10 +47,7 @@ void ReadResult(const fs::path& folder, EpisodeRecord& episode) {
     c.at("mpc_failures").get_to(episode.mpc_failures);
     c.at("wbc_failures").get_to(episode.wbc_failures);
     c.at("wbc_torque_drops").get_to(episode.wbc_torque_drops);
-    const json& t = j.at("terrain");
-    t.at("nu_1m_m").get_to(episode.terrain_nu_1m_m);
-    t.at("hurst").get_to(episode.terrain_hurst);
-    t.at("slope_mean_rad").get_to(episode.terrain_slope_mean_rad);
+    episode.terrain = StatisticsFromJson(j.at("terrain"));
     episode.metrics = j.at("metrics").get<EpisodeMetrics>();
     episode.has_metrics = true;
   } catch (const json::exception& e) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/metrics.h"
+#include "terrains/generator.h"
 
 namespace scoria::analysis {
 
@@ -18,7 +19,7 @@ struct EpisodeRecord {
   int falls = 0, stuck = 0;
   double walked_m = 0.0, real_time_factor = 0.0;
   std::uint64_t early_contacts = 0, mpc_failures = 0, wbc_failures = 0, wbc_torque_drops = 0;
-  double terrain_nu_1m_m = 0.0, terrain_hurst = 0.0, terrain_slope_mean_rad = 0.0;
+  terrains::TerrainStatistics terrain;
   EpisodeMetrics metrics;
   std::filesystem::path folder;
 };

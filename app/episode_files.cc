@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "analysis/terrain_view.h"
 #include "app/version.h"
 #include "core/files.h"
 #include "terrains/generator.h"
@@ -15,15 +16,6 @@ namespace scoria::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-nlohmann::json TerrainJson(const terrains::TerrainStatistics& s) {
-  return {{"nu_10cm_m", s.nu_10cm_m},
-          {"nu_25cm_m", s.nu_25cm_m},
-          {"nu_1m_m", s.nu_1m_m},
-          {"hurst", s.hurst},
-          {"slope_mean_rad", s.slope_mean_rad},
-          {"slope_95_rad", s.slope_95_rad}};
-}
 
 }  // namespace
 
@@ -34,7 +26,8 @@ EpisodeReport RunToFolder(const Scenario& scenario, const RunOptions& options) {
   core::WriteText(options.folder / "scenario.yaml", EffectiveYaml(scenario));
   const terrains::Heightfield ground =
       terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);
-  const nlohmann::json terrain = TerrainJson(terrains::MeasureTerrain(ground, scenario.terrain));
+  const nlohmann::json terrain =
+      analysis::ToJson(terrains::MeasureTerrain(ground, scenario.terrain));
 
   std::optional<FileSink> file;
   if (scenario.log.keep != KeepLog::kMetrics) {

@@ -243,8 +243,7 @@ class Episode {
                        : LegArray<Vec3>(config.lying_pose_rad);
     double clearance_m = 1e9;  // of the lowest foot over the ground if the trunk were at z = 0
     for (const Leg leg : kLegs) {
-      const Vec3 p_BF_W =
-          state.R_WB * controller::CalcLegKinematics(robot_.legs[leg], state.q[leg]).p_BF;
+      const Vec3 p_BF_W = state.R_WB * core::CalcLegKinematics(robot_.legs[leg], state.q[leg]).p_BF;
       const double ground = ground_.HeightAt(p_W.x() + p_BF_W.x(), p_W.y() + p_BF_W.y());
       clearance_m = std::min(clearance_m, p_BF_W.z() - robot_.legs[leg].foot_radius_m - ground);
     }
@@ -307,8 +306,8 @@ class Episode {
   sim::Sensors sensors_;
   Operator operator_;
   FallMonitor fall_monitor_;
-  controller::WholeBodyModel model_;  // for the record: true COM
-  controller::WholeBody whole_body_;
+  core::WholeBodyModel model_;  // for the record: true COM
+  core::WholeBody whole_body_;
   int wbc_every_;
   bool give_truth_;
   std::optional<Recorder> recorder_;

@@ -7,7 +7,7 @@
 
 #include "controller/estimation/state_estimator.h"
 #include "controller/gait/gait_sequencer.h"
-#include "controller/model/whole_body.h"
+#include "core/robot/whole_body.h"
 #include "controller/mpc/convex_mpc.h"
 #include "controller/reference/reference_planner.h"
 #include "controller/safety/leg_state_machine.h"
@@ -105,7 +105,7 @@ class Controller {
   std::int64_t first_step_;
   int mpc_every_, wbc_every_;
   bool operating_;
-  WholeBodyModel model_;
+  core::WholeBodyModel model_;
   double foot_radius_m_;
   std::unique_ptr<StateEstimator> estimator_;
   StandUp stand_up_;
@@ -117,7 +117,7 @@ class Controller {
   ConvexMpc mpc_;
   TsidNullspace wbc_;
 
-  WholeBody wb_;
+  core::WholeBody wb_;
   BodyReference reference_;
   FootholdPlan footholds_;
   struct PendingPlan {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "controller/model/whole_body.h"
+#include "core/robot/whole_body.h"
 
 namespace scoria::controller {
 
@@ -13,7 +13,7 @@ LegArray<Vec3> StandingPose(const core::RobotDescription& robot, double height_m
     Vec3 p_BF = robot.NeutralFoothold(leg);
     p_BF.z() = -height_m;
     const Vec3 guess(0.0, 0.8, -1.6);
-    pose[leg] = SolveLegIk(robot.legs[leg], p_BF, guess);
+    pose[leg] = core::SolveLegIk(robot.legs[leg], p_BF, guess);
   }
   return pose;
 }

@@ -7,7 +7,18 @@
 namespace scoria::core {
 
 /// What a random stream is for. Streams are independent: one that draws more never shifts another.
-enum class Stream : std::uint32_t { kTerrain = 1, kRocks, kMaterial, kSensor, kPayload, kOperator };
+enum class Stream : std::uint32_t {
+  kTerrain = 1,
+  kRocks,
+  kMaterial,
+  kSensor,
+  kPayload,
+  kOperator,
+  kRopes,
+  kGullies,
+  kCraters,
+  kCells
+};
 
 /// Philox 4x32 with 10 rounds: a bijection of `counter` under `key`.
 /// Source: [Salmon2011]; known answers in tests/core/rng_test.cc.

@@ -10,8 +10,6 @@ namespace {
 /// Largest torque in the direction of motion: full effort up to this share of the no-load speed,
 /// then linear to zero.
 constexpr double kKneeShare = 0.7;
-constexpr double kFrictionVelocity_radps =
-    0.1;  // tanh smoothing; stable while friction dt / (armature 0.1 rad/s) < 2
 
 double Envelope(double tau, double qd, double effort, double no_load) noexcept {
   double limit = effort;
@@ -30,7 +28,6 @@ Actuation::Actuation(const core::RobotDescription& robot)
 LegArray<Vec3> Actuation::Update(const JointCommand& command, const LegArray<Vec3>& q,
                                  const LegArray<Vec3>& qd, double dt_s) noexcept {
   const core::MotorParams& motors = robot_.config.motors;
-  LegArray<Vec3> tau_joint = ZeroPerLeg();
   double electrical_W = motors.idle_W, absolute_W = 0.0, positive_W = 0.0;
   for (const Leg leg : kLegs) {
     for (int j = 0; j < kJointsPerLeg; ++j) {
@@ -41,7 +38,6 @@ LegArray<Vec3> Actuation::Update(const JointCommand& command, const LegArray<Vec
       const double no_load = robot_.legs[leg].joints[static_cast<std::size_t>(j)].velocity_radps;
       const double tau = Envelope(wanted, w, effort_Nm_[leg][j], no_load);
       motor_tau_Nm_[leg][j] = tau;
-      tau_joint[leg][j] = tau - motors.friction_Nm[j] * std::tanh(w / kFrictionVelocity_radps);
       absolute_W += std::abs(tau * w);
       positive_W += std::max(tau * w, 0.0);
       electrical_W += std::max(0.0, tau * w + motors.copper_loss_W_per_Nm2[j] * tau * tau);
@@ -51,7 +47,7 @@ LegArray<Vec3> Actuation::Update(const JointCommand& command, const LegArray<Vec
   energy_.mech_pos_J += positive_W * dt_s;
   energy_.electrical_J += electrical_W * dt_s;
   energy_.electrical_W = electrical_W;
-  return tau_joint;
+  return motor_tau_Nm_;
 }
 
 }  // namespace scoria::sim

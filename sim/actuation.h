@@ -16,8 +16,8 @@ struct EnergyMeter {
   bool operator==(const EnergyMeter&) const = default;
 };
 
-/// Motors with gear: joint PD, torque-speed envelope, Coulomb friction, electrical power. Rotor
-/// inertia and viscous damping act inside the physics step (World).
+/// Motors with gear: joint PD, torque-speed envelope, electrical power. Rotor inertia, damping and
+/// friction of the joints act inside the physics step (World).
 class Actuation {
  public:
   explicit Actuation(const core::RobotDescription& robot);

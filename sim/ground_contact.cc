@@ -84,8 +84,8 @@ class SphereGroundAlgorithm : public btActivatingCollisionAlgorithm {
     const auto* sphere = ground_first_ ? second : first;
     const btVector3 centre = sphere->getWorldTransform().getOrigin();
     const Vec3 c(centre.x(), centre.y(), centre.z());
-    const double radius =
-        static_cast<const btSphereShape*>(sphere->getCollisionShape())->getRadius();
+    const auto* shape = static_cast<const btSphereShape*>(sphere->getCollisionShape());
+    const double radius = shape->getRadius();
     result->setPersistentManifold(manifold_);
     manifold_->clearManifold();
     const double threshold = manifold_->getContactBreakingThreshold();
@@ -104,10 +104,7 @@ class SphereGroundAlgorithm : public btActivatingCollisionAlgorithm {
       result->addContactPoint(-n, p + n * distance, distance);
     }
     if (manifold_->getNumContacts() == 0) return;
-    btManifoldPoint& point = manifold_->getContactPoint(0);
-    point.m_combinedFriction = ground_.friction();
-    point.m_userPersistentData =
-        const_cast<terrains::Heightfield*>(&ground_);  // marks a foot contact
+    manifold_->getContactPoint(0).m_userPersistentData = shape->getUserPointer();
   }
 
   btScalar calculateTimeOfImpact(btCollisionObject*, btCollisionObject*, const btDispatcherInfo&,

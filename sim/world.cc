@@ -1,173 +1,38 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/world.h"
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
 #include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>
-#include <BulletDynamics/Featherstone/btMultiBody.h>
-#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
-#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
-#include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
-#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
-#include <Eigen/Eigenvalues>
-#include <btBulletDynamicsCommon.h>
+#include <btBulletCollisionCommon.h>
 
+#include "core/math/so3.h"
 #include "core/robot/kinematics.h"
 #include "sim/ground_contact.h"
-#include "sim/rotor_solver.h"
+
+static_assert(sizeof(btScalar) == 8, "scoria needs Bullet in double precision (bullet-float64)");
 
 namespace scoria::sim {
 namespace {
 
-using core::Body;
 using core::BodyIndex;
 using core::kNumBodies;
 using core::RobotDescription;
 using core::Shape;
 
 constexpr int kRobotGroup = 1, kGroundGroup = 2;
-constexpr double kUnlimitedVelocity = 1e4;  // Bullet clamps every velocity coordinate to this
 
 btVector3 ToBullet(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-btQuaternion ToQuaternion(const Mat3& R) {
-  const Quat q = Quat(R).normalized();
-  return {q.x(), q.y(), q.z(), q.w()};
+btTransform ToBullet(const Mat3& R, const Vec3& p) {
+  return btTransform(
+      btMatrix3x3(R(0, 0), R(0, 1), R(0, 2), R(1, 0), R(1, 1), R(1, 2), R(2, 0), R(2, 1), R(2, 2)),
+      ToBullet(p));
 }
 Vec3 ToVec3(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
-Mat3 ToMat3(const btMatrix3x3& m) {
-  Mat3 R;
-  for (int i = 0; i < 3; ++i) R.row(i) = ToVec3(m[i]).transpose();
-  return R;
-}
 
-/// Bullet wants diagonal inertias, so every body uses its principal frame P, with origin at its
-/// COM.
-struct PrincipalFrame {
-  Mat3 R_LP = Mat3::Identity();
-  Vec3 moments = Vec3::Zero();
-  explicit PrincipalFrame(const Body& body) {
-    const Eigen::SelfAdjointEigenSolver<Mat3> solver(body.I_C_L);
-    R_LP = solver.eigenvectors();
-    if (R_LP.determinant() < 0.0) R_LP.col(2) = -R_LP.col(2);
-    moments = solver.eigenvalues();
-  }
-};
-
-int ParentIndex(int body) { return (body - 1) % kJointsPerLeg == 0 ? 0 : body - 1; }
-
-}  // namespace
-
-struct World::Impl {
-  Impl(const RobotDescription& robot_in, const terrains::Heightfield& ground_in,
-       const PhysicsParams& params_in, const Vec3& gravity_W);
-  ~Impl();
-
-  void BuildRobot();
-  void BuildColliders();
-  void BuildJointLimits();
-  void BuildGround();
-  [[nodiscard]] btTransform InPrincipalFrame(const Shape& shape) const;
-  std::unique_ptr<btCollisionShape> MakeShape(const Shape& shape) const;
-
-  void SetState(const RobotState& state);
-  void ReadState(RobotState& state) const;
-  void ReadContacts();
-  void UpdateTruth(const Vec3& v_before_W, bool stepped);
-
-  const RobotDescription& robot;
-  const terrains::Heightfield& ground;
-  PhysicsParams params;
-  std::vector<PrincipalFrame> frames;
-  RotorDrives drives;
-
-  btDefaultCollisionConfiguration configuration;
-  btCollisionDispatcher dispatcher{&configuration};
-  GroundContact ground_contact;
-  btDbvtBroadphase broadphase;
-  std::unique_ptr<btMultiBodyConstraintSolver> solver;
-  std::unique_ptr<btMultiBodyDynamicsWorld> world;
-  std::vector<std::unique_ptr<btCollisionShape>> shapes;
-  std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders;
-  std::vector<std::unique_ptr<btMultiBodyConstraint>> limits;
-  std::unique_ptr<btMultiBody> body;
-  std::unique_ptr<btCollisionObject> ground_object;
-  Truth truth;
-  Vec3 f_trunk_W = Vec3::Zero(), t_trunk_W = Vec3::Zero();
-};
-
-World::Impl::Impl(const RobotDescription& robot_in, const terrains::Heightfield& ground_in,
-                  const PhysicsParams& params_in, const Vec3& gravity_W)
-    : robot(robot_in),
-      ground(ground_in),
-      params(params_in),
-      ground_contact(dispatcher, ground_in),
-      solver(MakeRotorSolver(drives)),
-      world(std::make_unique<btMultiBodyDynamicsWorld>(&dispatcher, &broadphase, solver.get(),
-                                                       &configuration)) {
-  world->setGravity(ToBullet(gravity_W));
-  world->getDispatchInfo().m_deterministicOverlappingPairs = true;
-  btContactSolverInfo& info = world->getSolverInfo();
-  info.m_numIterations = params.max_solver_iterations;
-  info.m_leastSquaresResidualThreshold = params.solver_residual;
-  // Without the second friction direction a standing robot creeps on rough ground.
-  info.m_solverMode = SOLVER_SIMD | SOLVER_USE_WARMSTARTING | SOLVER_USE_2_FRICTION_DIRECTIONS;
-  for (int i = 0; i < kNumBodies; ++i) frames.emplace_back(robot.body(i));
-  BuildRobot();
-  BuildColliders();
-  BuildJointLimits();
-  BuildGround();
-}
-
-World::Impl::~Impl() {
-  for (const auto& limit : limits) world->removeMultiBodyConstraint(limit.get());
-  world->removeMultiBody(body.get());
-  for (const auto& collider : colliders) world->removeCollisionObject(collider.get());
-  world->removeCollisionObject(ground_object.get());
-}
-
-void World::Impl::BuildRobot() {
-  body = std::make_unique<btMultiBody>(kNumJoints, robot.trunk.mass_kg, ToBullet(frames[0].moments),
-                                       false, false);
-  for (const Leg leg : kLegs) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      const core::JointDescription& joint = robot.legs[leg].joints[j];
-      const int index = BodyIndex(leg, static_cast<Joint>(j)), parent = ParentIndex(index);
-      const Body& link = robot.body(index);
-      const PrincipalFrame &P = frames[static_cast<std::size_t>(index)],
-                           &Q = frames[static_cast<std::size_t>(parent)];
-      const Mat3 R_QP = Q.R_LP.transpose() * joint.R_PJ * P.R_LP;
-      body->setupRevolute(index - 1, link.mass_kg, ToBullet(P.moments), parent - 1,
-                          ToQuaternion(R_QP.transpose()),
-                          ToBullet(P.R_LP.transpose() * joint.axis_J),
-                          ToBullet(Q.R_LP.transpose() * (joint.p_PJ - robot.body(parent).p_LC)),
-                          ToBullet(P.R_LP.transpose() * link.p_LC), true);
-    }
-  }
-  body->finalizeMultiDof();
-  body->setLinearDamping(0.0);
-  body->setAngularDamping(0.0);
-  body->setCanSleep(false);
-  body->setUseGyroTerm(true);
-  body->setHasSelfCollision(false);
-  body->setMaxCoordinateVelocity(kUnlimitedVelocity);
-  world->addMultiBody(body.get());
-  drives.body = body.get();
-  for (int leg = 0; leg < kNumLegs; ++leg) {
-    drives.armature_kgm2.segment<3>(3 * leg) = robot.config.motors.armature_kgm2;
-    drives.damping_Nms_per_rad.segment<3>(3 * leg) = robot.config.motors.damping_Nms_per_rad;
-  }
-}
-
-btTransform World::Impl::InPrincipalFrame(const Shape& shape) const {
-  const Mat3 R_PL = frames[static_cast<std::size_t>(shape.body)].R_LP.transpose();
-  btTransform transform;
-  transform.setOrigin(ToBullet(R_PL * (shape.p_LG - robot.body(shape.body).p_LC)));
-  transform.setRotation(ToQuaternion(R_PL * shape.R_LG));
-  return transform;
-}
-
-std::unique_ptr<btCollisionShape> World::Impl::MakeShape(const Shape& shape) const {
+std::unique_ptr<btCollisionShape> MakeShape(const Shape& shape) {
   const Vec3& s = shape.size_m;
   switch (shape.kind) {
     case Shape::Kind::kBox:
@@ -180,137 +45,208 @@ std::unique_ptr<btCollisionShape> World::Impl::MakeShape(const Shape& shape) con
   return nullptr;
 }
 
-void World::Impl::BuildColliders() {
-  for (int index = 0; index < kNumBodies; ++index) {
-    auto compound = std::make_unique<btCompoundShape>(false);
-    for (const Shape& shape : robot.collisions) {
-      if (shape.body != index) continue;
-      shapes.push_back(MakeShape(shape));
-      compound->addChildShape(InPrincipalFrame(shape), shapes.back().get());
-    }
-    if (compound->getNumChildShapes() == 0) continue;
-    auto collider = std::make_unique<btMultiBodyLinkCollider>(body.get(), index - 1);
-    collider->setCollisionShape(compound.get());
-    collider->setFriction(1.0);  // Bullet multiplies: the ground's coefficient decides
-    collider->setRestitution(0.0);
-    collider->setActivationState(DISABLE_DEACTIVATION);
-    world->addCollisionObject(collider.get(), kRobotGroup, kGroundGroup);
-    if (index == 0) {
-      body->setBaseCollider(collider.get());
-    } else {
-      body->getLink(index - 1).m_collider = collider.get();
-    }
-    shapes.push_back(std::move(compound));
-    colliders.push_back(std::move(collider));
+/// The robot's bodies and the ground as Bullet sees them.
+class Collisions {
+ public:
+  Collisions(const RobotDescription& robot, const terrains::Heightfield& ground)
+      : ground_contact_(dispatcher_, ground) {
+    world_.getDispatchInfo().m_deterministicOverlappingPairs = true;
+    world_.setForceUpdateAllAabbs(false);
+    AddGround(ground);
+    for (int body = 0; body < kNumBodies; ++body) AddBody(robot, body);
   }
-}
+  ~Collisions() {
+    for (const auto& object : objects_) world_.removeCollisionObject(object.get());
+  }
 
-void World::Impl::BuildJointLimits() {
-  for (const Leg leg : kLegs) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      const core::JointDescription& joint = robot.legs[leg].joints[j];
-      limits.push_back(std::make_unique<btMultiBodyJointLimitConstraint>(
-          body.get(), BodyIndex(leg, static_cast<Joint>(j)) - 1, joint.lower_rad, joint.upper_rad));
-      limits.back()->finalizeMultiDof();
-      world->addMultiBodyConstraint(limits.back().get());
+  /// Appends where bodies at `poses` are at or near the ground.
+  void Find(const std::array<core::LinkPose, kNumBodies>& poses, const Vec3& p_WB,
+            std::vector<ContactPoint>& contacts) {
+    for (const auto& object : objects_) {
+      if (object->getUserIndex() == kGroundIndex) continue;
+      const auto& [R_WL, p_WL] = poses[static_cast<std::size_t>(object->getUserIndex())];
+      object->setWorldTransform(ToBullet(R_WL, p_WL));
     }
-  }
-}
-
-void World::Impl::BuildGround() {
-  constexpr double kMargin_m = 0.01;
-  constexpr int kUpAxis = 2;
-  const double low = ground.min_m() - kMargin_m, high = ground.max_m() + kMargin_m;
-  auto shape = std::make_unique<btHeightfieldTerrainShape>(
-      ground.nodes(), ground.nodes(), ground.heights_m().data(), low, high, kUpAxis, false);
-  shape->setLocalScaling(btVector3(ground.resolution_m(), ground.resolution_m(), 1.0));
-  ground_object = std::make_unique<btCollisionObject>();
-  ground_object->setCollisionShape(shape.get());
-  ground_object->setFriction(ground.friction());
-  ground_object->setRestitution(0.0);
-  btTransform transform;
-  transform.setIdentity();
-  transform.setOrigin(btVector3(0.0, 0.0, 0.5 * (low + high)));  // Bullet centres the shape there
-  ground_object->setWorldTransform(transform);
-  world->addCollisionObject(ground_object.get(), kGroundGroup, kRobotGroup);
-  shapes.push_back(std::move(shape));
-}
-
-void World::Impl::SetState(const RobotState& state) {
-  const Vec3 p_BC_W = state.R_WB * robot.trunk.p_LC;
-  body->setBasePos(ToBullet(state.p_WB + p_BC_W));
-  body->setWorldToBaseRot(ToQuaternion((state.R_WB * frames[0].R_LP).transpose()));
-  body->setBaseVel(ToBullet(state.v_WB + state.w_WB.cross(p_BC_W)));
-  body->setBaseOmega(ToBullet(state.w_WB));
-  for (const Leg leg : kLegs) {
-    for (int j = 0; j < kJointsPerLeg; ++j) {
-      const int link = BodyIndex(leg, static_cast<Joint>(j)) - 1;
-      body->setJointPos(link, state.q[leg][j]);
-      body->setJointVel(link, state.qd[leg][j]);
-    }
-  }
-  btAlignedObjectArray<btQuaternion> rotations;
-  btAlignedObjectArray<btVector3> origins;
-  body->forwardKinematics(rotations, origins);
-  body->updateCollisionObjectWorldTransforms(rotations, origins);
-}
-
-void World::Impl::ReadState(RobotState& state) const {
-  const Mat3 R_WP = ToMat3(btMatrix3x3(body->getWorldToBaseRot().inverse()));
-  state.R_WB = R_WP * frames[0].R_LP.transpose();
-  const Vec3 p_BC_W = state.R_WB * robot.trunk.p_LC;
-  state.w_WB = ToVec3(body->getBaseOmega());
-  state.p_WB = ToVec3(body->getBasePos()) - p_BC_W;
-  state.v_WB = ToVec3(body->getBaseVel()) - state.w_WB.cross(p_BC_W);
-  for (const Leg leg : kLegs) {
-    for (int j = 0; j < kJointsPerLeg; ++j) {
-      const int link = BodyIndex(leg, static_cast<Joint>(j)) - 1;
-      state.q[leg][j] = body->getJointPos(link);
-      state.qd[leg][j] = body->getJointVel(link);
-    }
-  }
-}
-
-void World::Impl::ReadContacts() {
-  for (const Leg leg : kLegs) {
-    truth.f_F_W[leg].setZero();
-    truth.f_normal_N[leg] = truth.penetration_m[leg] = 0.0;
-  }
-  Vec3 f_trunk = Vec3::Zero();
-  for (int m = 0; m < dispatcher.getNumManifolds(); ++m) {
-    const btPersistentManifold* manifold = dispatcher.getManifoldByIndexInternal(m);
-    const auto* first = btMultiBodyLinkCollider::upcast(manifold->getBody0());
-    const auto* second = btMultiBodyLinkCollider::upcast(manifold->getBody1());
-    const auto* collider = first != nullptr ? first : second;
-    if (collider == nullptr) continue;
-    const double sign = first != nullptr ? 1.0 : -1.0;
-    for (int i = 0; i < manifold->getNumContacts(); ++i) {
-      const btManifoldPoint& point = manifold->getContactPoint(i);
-      const Vec3 f_W = sign / params.step_s *
-                       ToVec3(point.m_appliedImpulse * point.m_normalWorldOnB +
-                              point.m_appliedImpulseLateral1 * point.m_lateralFrictionDir1 +
-                              point.m_appliedImpulseLateral2 * point.m_lateralFrictionDir2);
-      if (point.m_userPersistentData != nullptr) {
-        const Leg leg = kLegs[static_cast<std::size_t>(collider->m_link / kJointsPerLeg)];
-        truth.f_F_W[leg] += f_W;
-        truth.f_normal_N[leg] += point.m_appliedImpulse / params.step_s;
-        truth.penetration_m[leg] = -point.getDistance();
-      } else if (collider->m_link < 0) {
-        f_trunk += f_W;
+    world_.performDiscreteCollisionDetection();
+    for (int m = 0; m < dispatcher_.getNumManifolds(); ++m) {
+      const btPersistentManifold& manifold = *dispatcher_.getManifoldByIndexInternal(m);
+      const bool ground_first = manifold.getBody0()->getUserIndex() == kGroundIndex;
+      const auto* body = ground_first ? manifold.getBody1() : manifold.getBody0();
+      for (int i = 0; i < manifold.getNumContacts(); ++i) {
+        const btManifoldPoint& point = manifold.getContactPoint(i);
+        ContactPoint contact;
+        contact.body = body->getUserIndex();
+        contact.n_W = (ground_first ? -1.0 : 1.0) * ToVec3(point.m_normalWorldOnB);
+        contact.p_BP_W =
+            ToVec3(ground_first ? point.getPositionWorldOnB() : point.getPositionWorldOnA()) - p_WB;
+        contact.gap_m = point.getDistance();
+        contact.is_foot = point.m_userPersistentData != nullptr;
+        contacts.push_back(contact);
       }
     }
   }
-  truth.trunk_force_N = f_trunk.norm();
+
+  /// Forgets cached contacts.
+  void Forget() {
+    for (int m = 0; m < dispatcher_.getNumManifolds(); ++m) {
+      dispatcher_.getManifoldByIndexInternal(m)->clearManifold();
+    }
+  }
+
+ private:
+  static constexpr int kGroundIndex = -1;
+
+  void AddGround(const terrains::Heightfield& ground) {
+    constexpr double kMargin_m = 0.01;
+    constexpr int kUpAxis = 2;
+    const double low = ground.min_m() - kMargin_m, high = ground.max_m() + kMargin_m;
+    auto shape = std::make_unique<btHeightfieldTerrainShape>(
+        ground.nodes(), ground.nodes(), ground.heights_m().data(), low, high, kUpAxis, false);
+    shape->setLocalScaling(btVector3(ground.resolution_m(), ground.resolution_m(), 1.0));
+    auto object = std::make_unique<btCollisionObject>();
+    object->setCollisionShape(shape.get());
+    object->setCollisionFlags(btCollisionObject::CF_STATIC_OBJECT);
+    object->setUserIndex(kGroundIndex);
+    // Bullet centres the shape between the two heights.
+    object->setWorldTransform(ToBullet(Mat3::Identity(), {0.0, 0.0, 0.5 * (low + high)}));
+    world_.addCollisionObject(object.get(), kGroundGroup, kRobotGroup);
+    shapes_.push_back(std::move(shape));
+    objects_.push_back(std::move(object));
+  }
+
+  void AddBody(const RobotDescription& robot, int body) {
+    auto compound = std::make_unique<btCompoundShape>(false);
+    for (const Shape& shape : robot.collisions) {
+      if (shape.body != body) continue;
+      shapes_.push_back(MakeShape(shape));
+      if (shape.is_foot) shapes_.back()->setUserPointer(this);
+      compound->addChildShape(ToBullet(shape.R_LG, shape.p_LG), shapes_.back().get());
+    }
+    if (compound->getNumChildShapes() == 0) return;
+    auto object = std::make_unique<btCollisionObject>();
+    object->setCollisionShape(compound.get());
+    object->setActivationState(DISABLE_DEACTIVATION);
+    object->setUserIndex(body);
+    world_.addCollisionObject(object.get(), kRobotGroup, kGroundGroup);
+    shapes_.push_back(std::move(compound));
+    objects_.push_back(std::move(object));
+  }
+
+  btDefaultCollisionConfiguration configuration_;
+  btCollisionDispatcher dispatcher_{&configuration_};
+  GroundContact ground_contact_;
+  btDbvtBroadphase broadphase_;
+  btCollisionWorld world_{&dispatcher_, &broadphase_, &configuration_};
+  std::vector<std::unique_ptr<btCollisionShape>> shapes_;
+  std::vector<std::unique_ptr<btCollisionObject>> objects_;
+};
+
+Leg LegOf(int body) { return kLegs[static_cast<std::size_t>((body - 1) / kJointsPerLeg)]; }
+
+}  // namespace
+
+struct World::Impl {
+  Impl(const RobotDescription& robot_in, const terrains::Heightfield& ground_in,
+       const PhysicsParams& params_in, const Vec3& gravity_in_W);
+
+  void FindContacts();
+  void Integrate(const Vec18& v);
+  void RecordContacts();
+  void UpdateTruth();
+
+  const RobotDescription& robot;
+  const terrains::Heightfield& ground;
+  PhysicsParams params;
+  Vec3 gravity_W;
+  core::WholeBodyModel model;
+  core::WholeBody whole_body;  // at truth.state
+  StepSolver solver;
+  Collisions collisions;
+  double load_kg;  // that a foot typically carries: what the ground's damping ratio refers to
+  LegArray<FootGround> feet;
+  LegArray<Vec3> foot_impulse_W = ZeroPerLeg();  // of the last step: where the solver starts
+  std::vector<ContactPoint> contacts;
+  Truth truth;
+  Vec3 f_trunk_W = Vec3::Zero(), t_trunk_W = Vec3::Zero();
+};
+
+World::Impl::Impl(const RobotDescription& robot_in, const terrains::Heightfield& ground_in,
+                  const PhysicsParams& params_in, const Vec3& gravity_in_W)
+    : robot(robot_in),
+      ground(ground_in),
+      params(params_in),
+      gravity_W(gravity_in_W),
+      model(robot_in, gravity_in_W),
+      solver(robot_in, {params_in.max_solver_iterations, params_in.solver_residual}),
+      collisions(robot_in, ground_in),
+      load_kg(robot_in.total_mass_kg() / kNumLegs) {}
+
+void World::Impl::FindContacts() {
+  const RobotState& state = truth.state;
+  contacts.clear();
+  collisions.Find(core::CalcLinkPoses(robot, state.p_WB, state.R_WB, state.q), state.p_WB,
+                  contacts);
+  LegArray<bool> near(false);
+  for (ContactPoint& c : contacts) {
+    const Vec3 p_WP = state.p_WB + c.p_BP_W;
+    const terrains::GroundSample sample = ground.GroundAt(p_WP.x(), p_WP.y());
+    if (!c.is_foot) {
+      PrepareBodyContact(sample, load_kg, c);
+      continue;
+    }
+    const Leg leg = LegOf(c.body);
+    // The sphere's velocity along the normal is the same all over it.
+    feet[leg].Prepare(sample, -c.n_W.dot(whole_body.v_WF[leg]), params.step_s, c);
+    c.impulse_W = foot_impulse_W[leg];
+    near[leg] = true;
+  }
+  for (const Leg leg : kLegs) {
+    if (!near[leg]) feet[leg].Lift();
+  }
 }
 
-void World::Impl::UpdateTruth(const Vec3& v_before_W, bool stepped) {
-  ReadState(truth.state);
-  truth.a_WB = stepped ? Vec3((truth.state.v_WB - v_before_W) / params.step_s) : Vec3::Zero();
-  const auto poses = core::CalcLinkPoses(robot, truth.state.p_WB, truth.state.R_WB, truth.state.q);
+void World::Impl::Integrate(const Vec18& v) {
+  RobotState& state = truth.state;
+  const double dt = params.step_s;
+  truth.a_WB = (v.head<3>() - state.v_WB) / dt;
+  state.v_WB = v.head<3>();
+  state.w_WB = v.segment<3>(3);
+  state.p_WB += dt * state.v_WB;
+  state.R_WB = Quat(core::ExpSo3(dt * state.w_WB) * state.R_WB).normalized().toRotationMatrix();
   for (const Leg leg : kLegs) {
-    const core::LinkPose& shank = poses[static_cast<std::size_t>(BodyIndex(leg, Joint::kKFE))];
-    truth.p_WF[leg] = shank.p_WL + shank.R_WL * robot.legs[leg].p_LF;
+    state.qd[leg] = v.segment<3>(6 + kJointsPerLeg * static_cast<int>(leg));
+    state.q[leg] += dt * state.qd[leg];
   }
+}
+
+/// Forces of the step, and what the feet did to the ground.
+void World::Impl::RecordContacts() {
+  truth.f_F_W = foot_impulse_W = ZeroPerLeg();
+  truth.f_normal_N = truth.penetration_m = LegArray<double>(0.0);
+  Vec3 f_trunk_W = Vec3::Zero();
+  for (const ContactPoint& c : contacts) {
+    const Vec3 f_W = c.impulse_W / params.step_s;
+    if (c.body == 0) f_trunk_W += f_W;
+    if (!c.is_foot) continue;
+    const Leg leg = LegOf(c.body);
+    foot_impulse_W[leg] = c.impulse_W;
+    truth.f_F_W[leg] = f_W;
+    truth.f_normal_N[leg] = c.n_W.dot(f_W);
+    truth.penetration_m[leg] = -c.gap_m;
+    feet[leg].Finish(c, truth.state.p_WB + c.p_BP_W, params.step_s);
+  }
+  truth.trunk_force_N = f_trunk_W.norm();
+}
+
+void World::Impl::UpdateTruth() {
+  model.Calc(truth.state, whole_body);
+  truth.p_WC = whole_body.p_WC;
+  truth.mass_kg = whole_body.mass_kg;
+  truth.p_WF = whole_body.p_WF;
+  truth.energy.kinetic_J = CalcKineticEnergy(whole_body);
+  // Semi-implicit Euler is a leapfrog: its velocity belongs to half a step ago.
+  const Vec3 p_WC_then = whole_body.p_WC - 0.5 * params.step_s * whole_body.v_WC;
+  truth.energy.potential_J = -whole_body.mass_kg * gravity_W.dot(p_WC_then);
 }
 
 World::World(const RobotDescription& robot, const terrains::Heightfield& ground,
@@ -320,32 +256,35 @@ World::World(const RobotDescription& robot, const terrains::Heightfield& ground,
 World::~World() = default;
 
 void World::Reset(const RobotState& state) {
-  impl_->SetState(state);
-  impl_->body->clearForcesAndTorques();
-  impl_->body->clearConstraintForces();
-  for (int m = 0; m < impl_->dispatcher.getNumManifolds(); ++m) {
-    impl_->dispatcher.getManifoldByIndexInternal(m)->clearManifold();
+  Impl& w = *impl_;
+  w.collisions.Forget();
+  w.foot_impulse_W = ZeroPerLeg();
+  w.solver.Reset();
+  for (const Leg leg : kLegs) {
+    w.feet[leg] = FootGround(w.params.ground, w.robot.legs[leg].foot_radius_m, w.load_kg);
   }
-  impl_->truth = Truth{};
-  impl_->UpdateTruth(Vec3::Zero(), false);
+  w.truth = Truth{};
+  w.truth.state = state;
+  w.UpdateTruth();
+  w.truth.energy.initial_J = w.truth.energy.kinetic_J + w.truth.energy.potential_J;
 }
 
 void World::Step(const LegArray<Vec3>& tau_Nm) {
-  const std::array<double, kNumJoints> tau = Flatten(tau_Nm);
-  for (int j = 0; j < kNumJoints; ++j) {
-    impl_->body->addJointTorque(j, tau[static_cast<std::size_t>(j)]);
-    impl_->drives.qd_before_radps[j] = impl_->body->getJointVel(j);
-  }
-  impl_->body->addBaseForce(ToBullet(impl_->f_trunk_W));
-  impl_->body->addBaseTorque(ToBullet(impl_->t_trunk_W));
-  const Vec3 v_before_W = impl_->truth.state.v_WB;
-  constexpr int kExactlyOneStep = 0;
-  impl_->world->stepSimulation(impl_->params.step_s, kExactlyOneStep);
-  impl_->ReadContacts();
-  impl_->UpdateTruth(v_before_W, true);
+  Impl& w = *impl_;
+  w.FindContacts();
+  const Vec3 p_BC_W = w.truth.state.R_WB * w.robot.trunk.p_LC;
+  Vec6 wrench_B_W;
+  wrench_B_W << w.f_trunk_W, w.t_trunk_W + p_BC_W.cross(w.f_trunk_W);
+  const Vec18 v = w.solver.Solve(w.whole_body, tau_Nm, wrench_B_W, w.params.step_s, w.contacts);
+  w.RecordContacts();
+  w.Integrate(v);
+  w.UpdateTruth();
+  w.truth.energy.work += w.solver.work();
 }
 
 const Truth& World::truth() const noexcept { return impl_->truth; }
+
+int World::solver_iterations() const noexcept { return impl_->solver.iterations(); }
 
 void World::SetTrunkWrench(const Vec3& f_W, const Vec3& t_W) {
   impl_->f_trunk_W = f_W;

@@ -2,29 +2,42 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "terrains/heightfield.h"
 #include "terrains/params.h"
+#include "terrains/relief.h"
 
 namespace scoria::terrains {
 
-/// The ground of one episode: base plane + self-affine roughness + rocks. The same arguments give
-/// the same bits.
+/// The ground of one episode: base plane, large forms, self-affine roughness, ripples, rocks, and
+/// the materials that lie on it. The same arguments give the same bits.
+/// Errors: core::ConfigError of a heightmap that cannot be used.
 [[nodiscard]] Heightfield GenerateTerrain(const TerrainParams& params, std::uint64_t seed,
                                           std::uint32_t episode);
 
-/// Number of rocks per square metre with diameter above D, for D in [min_diameter_m,
-/// max_diameter_m]. Source: [Golombek1997], differentiated and divided by the area of one rock.
-[[nodiscard]] double RockDensity(const RockParams& rocks, double above_diameter_m);
-
-/// What a heightfield achieved, measured on its grid.
+/// What a heightfield achieved, measured on its grid with its mean plane removed.
 struct TerrainStatistics {
-  double nu_10cm_m = 0.0, nu_25cm_m = 0.0,
-         nu_1m_m = 0.0;  // RMS height difference at these lags, base plane removed
-  double hurst = 0.0;    // slope of log nu(L) for lags from 5 nodes to a tenth of max_wavelength_m
+  double nu_10cm_m = 0.0, nu_25cm_m = 0.0, nu_1m_m = 0.0;  // RMS height difference at these lags
+  double hurst =
+      0.0;  // slope of log nu over log lag, from the break to a tenth of the longest wave
   double slope_mean_rad = 0.0, slope_95_rad = 0.0;  // at the node spacing
+  struct Share {
+    std::string material;
+    double fraction = 0.0;  // of the area
+  };
+  std::vector<Share> materials;  // the substrate first; rocks are one of them
 };
 [[nodiscard]] TerrainStatistics MeasureTerrain(const Heightfield& ground,
                                                const TerrainParams& params);
+
+/// One point of a deviogram.
+struct Deviation {
+  double lag_m = 0.0, measured_m = 0.0;
+  double target_m = 0.0;  // of the roughness spectrum; 0 without one
+};
+[[nodiscard]] std::vector<Deviation> MeasureDeviogram(const Heightfield& ground,
+                                                      const TerrainParams& params);
 
 }  // namespace scoria::terrains

@@ -22,14 +22,19 @@ struct Weights {
 }  // namespace
 
 Heightfield::Heightfield(int nodes, double resolution_m, std::vector<double> heights_m,
-                         double friction)
+                         Material substrate, std::vector<Cover> covers)
     : nodes_(nodes),
       resolution_m_(resolution_m),
       heights_m_(std::move(heights_m)),
-      friction_(friction) {
-  SCORIA_DEMAND(nodes >= 2 && heights_m_.size() ==
-                                  static_cast<std::size_t>(nodes) * static_cast<std::size_t>(nodes),
-                "nodes {}, heights {}", nodes, heights_m_.size());
+      substrate_(std::move(substrate)),
+      covers_(std::move(covers)) {
+  const auto size = static_cast<std::size_t>(nodes) * static_cast<std::size_t>(nodes);
+  SCORIA_DEMAND(nodes >= 2 && heights_m_.size() == size, "nodes {}, heights {}", nodes,
+                heights_m_.size());
+  for (const Cover& cover : covers_) {
+    SCORIA_DEMAND(cover.share.size() == size, "{}: {} shares", cover.material.name,
+                  cover.share.size());
+  }
   const auto [low, high] = std::minmax_element(heights_m_.begin(), heights_m_.end());
   min_m_ = *low;
   max_m_ = *high;
@@ -69,6 +74,33 @@ Heightfield::Sample Heightfield::At(double x_m, double y_m) const noexcept {
   }
   sample.gradient /= resolution_m_;
   return sample;
+}
+
+GroundSample Heightfield::GroundAt(double x_m, double y_m) const noexcept {
+  GroundSample ground{substrate_.friction, substrate_.stiffness_N_per_m3,
+                      substrate_.stiffness_N_per_m3, 0.0, substrate_.damping_ratio};
+  if (covers_.empty()) return ground;
+  const double limit = nodes_ - 1.0;
+  const double u = std::clamp((x_m + half_size_m()) / resolution_m_, 0.0, limit);
+  const double v = std::clamp((y_m + half_size_m()) / resolution_m_, 0.0, limit);
+  const int i = std::min(static_cast<int>(u), nodes_ - 2);
+  const int j = std::min(static_cast<int>(v), nodes_ - 2);
+  const double tx = u - i, ty = v - j;
+  const auto size = static_cast<std::size_t>(nodes_);
+  const std::size_t at = static_cast<std::size_t>(j) * size + static_cast<std::size_t>(i);
+  double log_ratio = 0.0;  // of the layer's stiffness to the substrate's
+  for (const auto& [material, share] : covers_) {
+    const double part = ((1.0 - ty) * ((1.0 - tx) * share[at] + tx * share[at + 1]) +
+                         ty * ((1.0 - tx) * share[at + size] + tx * share[at + size + 1])) /
+                        255.0;
+    if (part == 0.0) continue;
+    ground.friction += part * (material.friction - substrate_.friction);
+    ground.damping_ratio += part * (material.damping_ratio - substrate_.damping_ratio);
+    ground.depth_m += part * material.depth_m;
+    log_ratio += part * std::log(material.stiffness_N_per_m3 / substrate_.stiffness_N_per_m3);
+  }
+  ground.layer_N_per_m3 *= std::exp(log_ratio);
+  return ground;
 }
 
 }  // namespace scoria::terrains

@@ -40,7 +40,7 @@ ConvexMpc::ConvexMpc(const MpcParams& params, const core::RobotDescription& robo
       solver_(params.solver) {}
 
 void ConvexMpc::Build(const MpcInput& in) noexcept {
-  const WholeBody& wb = in.wb;
+  const core::WholeBody& wb = in.wb;
   const double dt = params_.stage_s;
   const auto& reference = in.reference.stages;
   Vec3 rpy = core::RpyFromRotation(wb.state.R_WB);

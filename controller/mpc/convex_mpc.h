@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "controller/model/whole_body.h"
+#include "core/robot/whole_body.h"
 #include "controller/qp/riccati_ipm.h"
 #include "core/robot/plans.h"
 
@@ -57,7 +57,7 @@ struct MpcParams {
 };
 
 struct MpcInput {
-  const WholeBody& wb;
+  const core::WholeBody& wb;
   const ContactPlan& contacts;
   const LegPhases& legs;  // who stands now
   const BodyReference& reference;

@@ -17,7 +17,7 @@ double Towards(double from, double to, double max_step) noexcept {
 
 }  // namespace
 
-void ReferencePlanner::ObserveFeet(const WholeBody& wb, const LegArray<bool>& contact,
+void ReferencePlanner::ObserveFeet(const core::WholeBody& wb, const LegArray<bool>& contact,
                                    double foot_radius_m) noexcept {
   for (const Leg leg : kLegs) {
     if (started_ && !contact[leg]) continue;
@@ -58,7 +58,7 @@ void ReferencePlanner::Ramp(const Command& command, double dt_s) noexcept {
   w_z_ = Towards(w_z_, command.w_z_radps, params_.max_yaw_acceleration_radps2 * dt_s);
 }
 
-BodyReference ReferencePlanner::Plan(const WholeBody& wb, const Command& command, int horizon,
+BodyReference ReferencePlanner::Plan(const core::WholeBody& wb, const Command& command, int horizon,
                                      double stage_s, double dt_s) noexcept {
   const double yaw = core::RpyFromRotation(wb.state.R_WB).z();
   if (!started_) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "controller/model/whole_body.h"
+#include "core/robot/whole_body.h"
 #include "core/config/archive.h"
 #include "core/robot/plans.h"
 
@@ -42,10 +42,10 @@ class ReferencePlanner {
 
   /// Tells where the feet that are down stand; call once per tick before Plan.
   /// @param foot_radius_m lowers the footholds to the ground.
-  void ObserveFeet(const WholeBody& wb, const LegArray<bool>& contact,
+  void ObserveFeet(const core::WholeBody& wb, const LegArray<bool>& contact,
                    double foot_radius_m) noexcept;
 
-  [[nodiscard]] BodyReference Plan(const WholeBody& wb, const Command& command, int horizon,
+  [[nodiscard]] BodyReference Plan(const core::WholeBody& wb, const Command& command, int horizon,
                                    double stage_s, double dt_s) noexcept;
 
   [[nodiscard]] const GroundPlane& plane() const noexcept { return plane_; }

@@ -32,7 +32,7 @@ Vec3 FootholdPlanner::TouchdownAfter(const Tick& t, Leg leg, double delay_s) con
   return ClipToReach(robot_, leg, p_WB, R_WH, p_WF);
 }
 
-FootholdPlan FootholdPlanner::Plan(const WholeBody& wb, const ContactPlan& contacts,
+FootholdPlan FootholdPlanner::Plan(const core::WholeBody& wb, const ContactPlan& contacts,
                                    const LegPhases& legs, const BodyReference& reference,
                                    const GroundPlane& plane) noexcept {
   const Tick tick{wb,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "controller/model/whole_body.h"
+#include "core/robot/whole_body.h"
 #include "core/config/archive.h"
 #include "core/math/moving_mean.h"
 #include "core/robot/plans.h"
@@ -31,14 +31,14 @@ class FootholdPlanner {
   FootholdPlanner(const FootholdParams& params, const core::RobotDescription& robot,
                   double gravity_mps2) noexcept;
 
-  [[nodiscard]] FootholdPlan Plan(const WholeBody& wb, const ContactPlan& contacts,
+  [[nodiscard]] FootholdPlan Plan(const core::WholeBody& wb, const ContactPlan& contacts,
                                   const LegPhases& legs, const BodyReference& reference,
                                   const GroundPlane& plane) noexcept;
 
  private:
   /// What one tick's footholds have in common.
   struct Tick {
-    const WholeBody& wb;
+    const core::WholeBody& wb;
     const ContactPlan& contacts;
     const BodyReference::Stage& reference;
     const GroundPlane& plane;

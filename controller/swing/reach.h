@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "controller/model/whole_body.h"
+#include "core/robot/whole_body.h"
 
 namespace scoria::controller {
 

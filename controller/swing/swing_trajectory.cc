@@ -18,7 +18,7 @@ struct Blend {
 
 }  // namespace
 
-FootTargets SwingTrajectory::Plan(const WholeBody& wb, const LegPhases& legs,
+FootTargets SwingTrajectory::Plan(const core::WholeBody& wb, const LegPhases& legs,
                                   const FootholdPlan& footholds) noexcept {
   FootTargets targets;
   for (const Leg leg : kLegs) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "controller/model/whole_body.h"
+#include "core/robot/whole_body.h"
 #include "core/config/archive.h"
 #include "core/robot/plans.h"
 
@@ -31,7 +31,7 @@ class SwingTrajectory {
   SwingTrajectory(const SwingParams& params, const core::RobotDescription& robot) noexcept
       : params_(params), robot_(robot) {}
 
-  [[nodiscard]] FootTargets Plan(const WholeBody& wb, const LegPhases& legs,
+  [[nodiscard]] FootTargets Plan(const core::WholeBody& wb, const LegPhases& legs,
                                  const FootholdPlan& footholds) noexcept;
 
  private:

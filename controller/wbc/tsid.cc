@@ -42,7 +42,7 @@ TsidNullspace::TsidNullspace(const TsidParams& params, const core::RobotDescript
 ///   (H_BB − Σ X_l J_Bl) a = Σ J_Blᵀ f_l − Σ_swing H_Bl qdd_l − h_B − Σ X_l a_c,l,   X_l = H_Bl
 ///   J_l⁻¹.
 void TsidNullspace::Reduce(const WbcInput& in) noexcept {
-  const WholeBody& wb = in.wb;
+  const core::WholeBody& wb = in.wb;
   LegArray<Mat3> J, J_inverse;
   LegArray<Eigen::Matrix<double, 3, 6>> J_B;
   LegArray<Vec3> a_c;
@@ -95,7 +95,7 @@ void TsidNullspace::AddTask(const Mat3x12& A, const Vec3& target, double weight)
 }
 
 void TsidNullspace::AddTasks(const WbcInput& in, const BodyReference::Stage& target) noexcept {
-  const WholeBody& wb = in.wb;
+  const core::WholeBody& wb = in.wb;
   G_ = params_.regularisation * Mat12::Identity();
   g_.setZero();
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "controller/model/whole_body.h"
+#include "core/robot/whole_body.h"
 #include "controller/qp/dual_active_set.h"
 #include "core/config/archive.h"
 #include "core/robot/plans.h"
@@ -48,7 +48,7 @@ struct TsidParams {
 };
 
 struct WbcInput {
-  const WholeBody& wb;
+  const core::WholeBody& wb;
   const LegPhases& legs;
   const FootTargets& feet;
   const ForcePlan& forces;

@@ -9,6 +9,7 @@
 
 #include "analysis/compare.h"
 #include "analysis/html.h"
+#include "analysis/terrain_view.h"
 #include "tests/support/robots.h"
 
 namespace scoria::analysis {
@@ -45,7 +46,8 @@ void WriteCampaign(const fs::path& folder) {
                                          {"mpc_failures", 0},
                                          {"wbc_failures", 0},
                                          {"wbc_torque_drops", 0}};
-        const nlohmann::json terrain = {{"nu_1m_m", 0.07}, {"hurst", 0.6}, {"slope_mean_rad", 0.2}};
+        const nlohmann::json terrain = ToJson(
+            {.nu_1m_m = 0.07, .hurst = 0.6, .slope_mean_rad = 0.2, .materials = {{"tuff", 1.0}}});
         nlohmann::json result = {{"end", "completed"},
                                  {"falls", falls},
                                  {"stuck", 0},

@@ -22,7 +22,7 @@ TEST(Route, LeadsAroundAWallThroughItsGap) {
       heights.push_back(wall ? 0.3 : 0.0);
     }
   }
-  const terrains::Heightfield ground(kNodes, 0.1, std::move(heights), 0.6);
+  const terrains::Heightfield ground(kNodes, 0.1, std::move(heights), {});
   const Route route = PlanRoute({}, ground);
   ASSERT_GT(route.size(), 100u);
   for (const Vec2& p : route) EXPECT_LT(ground.HeightAt(p.x(), p.y()), 0.1) << p.transpose();

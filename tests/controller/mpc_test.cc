@@ -12,7 +12,7 @@ namespace {
 
 /// A standing robot turned by `yaw_rad`, and everything the MPC needs to hold it.
 struct Standing {
-  WholeBody wb;
+  core::WholeBody wb;
   ContactPlan contacts;
   LegPhases legs;
   BodyReference reference;
@@ -21,7 +21,7 @@ struct Standing {
   explicit Standing(double yaw_rad, int horizon) {
     RobotState s = test::StandingState();
     s.R_WB = core::RotationZ(yaw_rad);
-    WholeBodyModel(test::Go2(), 9.81).Calc(s, wb);
+    core::WholeBodyModel(test::Go2(), 9.81).Calc(s, wb);
     contacts.standing = true;
     contacts.horizon = horizon;
     contacts.stage_stance.fill(LegArray<bool>(true));

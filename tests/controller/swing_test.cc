@@ -12,18 +12,18 @@
 namespace scoria::controller {
 namespace {
 
-WholeBody Standing(const Vec3& v_WB = Vec3::Zero()) {
+core::WholeBody Standing(const Vec3& v_WB = Vec3::Zero()) {
   RobotState s = test::StandingState();
   s.v_WB = v_WB;
-  WholeBody wb;
-  WholeBodyModel(test::Go2(), 9.81).Calc(s, wb);
+  core::WholeBody wb;
+  core::WholeBodyModel(test::Go2(), 9.81).Calc(s, wb);
   return wb;
 }
 
 TEST(SwingTrajectory, StartsAndEndsAtRestAndReachesItsApex) {
   SwingParams params;
   SwingTrajectory swing(params, test::Go2());
-  const WholeBody wb = Standing();
+  const core::WholeBody wb = Standing();
   LegPhases legs;
   legs.mode[Leg::kFL] = LegMode::kSwing;
   legs.swing_s = LegArray<double>(0.2);
@@ -52,7 +52,7 @@ TEST(SwingTrajectory, LateFootGoesDownAtItsSpeed) {
   SwingParams params;
   params.lower_speed_mps = 0.3;
   SwingTrajectory swing(params, test::Go2());
-  const WholeBody wb = Standing();
+  const core::WholeBody wb = Standing();
   LegPhases legs;
   legs.mode[Leg::kHR] = LegMode::kSwing;
   legs.swing_progress[Leg::kHR] = 0.5;
@@ -68,7 +68,7 @@ TEST(SwingTrajectory, LateFootGoesDownAtItsSpeed) {
 
 TEST(SwingTrajectory, NextSwingAfterALateFootStartsWhereTheFootIs) {
   SwingTrajectory swing({}, test::Go2());
-  WholeBody wb = Standing();
+  core::WholeBody wb = Standing();
   LegPhases legs;
   FootholdPlan footholds;
   footholds.next = wb.p_WF;
@@ -97,7 +97,7 @@ TEST(FootholdPlanner, StepsSymmetricallyAtTheCommandedSpeedAndOutwardsWhenPushed
   const GroundPlane plane;
   const auto foothold = [&](const Vec3& v_WB, Leg leg) {
     FootholdPlanner planner({}, test::Go2(), 9.81);
-    const WholeBody wb = Standing(v_WB);
+    const core::WholeBody wb = Standing(v_WB);
     return Vec3(planner.Plan(wb, contacts, LegPhases{}, reference, plane).next[leg] -
                 wb.state.p_WB - test::Go2().NeutralFoothold(leg));
   };
@@ -116,8 +116,8 @@ TEST(ReferencePlanner, FollowsTheGroundPlaneAndHoldsStillWhenStanding) {
   ReferencePlanner planner({}, 0.30);
   RobotState s = test::StandingState();
   // All four feet on a plane that rises 0.1 per metre: lift the body's frame by a pitch.
-  WholeBody wb;
-  WholeBodyModel model(test::Go2(), 9.81);
+  core::WholeBody wb;
+  core::WholeBodyModel model(test::Go2(), 9.81);
   model.Calc(s, wb);
   for (const Leg leg : kLegs) wb.p_WF[leg].z() = 0.022 + 0.1 * wb.p_WF[leg].x();
   BodyReference reference;

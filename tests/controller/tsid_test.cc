@@ -11,14 +11,14 @@ namespace scoria::controller {
 namespace {
 
 struct Case {
-  WholeBody wb;
+  core::WholeBody wb;
   LegPhases legs;
   FootTargets feet;
   ForcePlan forces;
   Vec3 n_W = Vec3::UnitZ();
 
   explicit Case(const RobotState& s) {
-    WholeBodyModel(test::Go2(), 9.81).Calc(s, wb);
+    core::WholeBodyModel(test::Go2(), 9.81).Calc(s, wb);
     const Vec3 rpy = core::RpyFromRotation(s.R_WB);
     forces.valid = true;
     for (auto& body : forces.body) body = {rpy, wb.p_WC, Vec3::Zero(), Vec3::Zero()};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include "controller/model/whole_body.h"
 #include "core/robot/kinematics.h"
+#include "core/robot/whole_body.h"
 #include "tests/support/robots.h"
 
 namespace scoria::core {
@@ -26,8 +26,8 @@ std::string ErrorOf(std::string urdf, const std::string& from, const std::string
 TEST(Go2, MassAndCentreOfMassAreTheReferences) {
   const RobotDescription& robot = test::Go2();
   EXPECT_NEAR(robot.total_mass_kg(), 15.019, 1e-9);
-  const controller::WholeBodyModel model(robot, 9.81);
-  controller::WholeBody wb;
+  const core::WholeBodyModel model(robot, 9.81);
+  core::WholeBody wb;
   model.Calc(RobotState{}, wb);
   EXPECT_NEAR(wb.p_WC.x(), 0.00884, 5e-5);
   EXPECT_NEAR(wb.p_WC.y(), 0.0, 5e-5);
@@ -40,7 +40,7 @@ TEST(Go2, MassAndCentreOfMassAreTheReferences) {
 TEST(Go2, FeetStandWhereThePresetPoseSays) {
   const RobotDescription& robot = test::Go2();
   const Vec3 q(0.0, 0.774, -1.56);
-  const Vec3 p_BF = controller::CalcLegKinematics(robot.legs[Leg::kFL], q).p_BF;
+  const Vec3 p_BF = core::CalcLegKinematics(robot.legs[Leg::kFL], q).p_BF;
   EXPECT_NEAR(p_BF.y(), 0.0465 + 0.0955, 1e-9);
   EXPECT_NEAR(p_BF.z(), -0.303, 2e-3);
   EXPECT_EQ(robot.legs[Leg::kFL].foot_radius_m, 0.022);
@@ -49,10 +49,10 @@ TEST(Go2, FeetStandWhereThePresetPoseSays) {
 TEST(Kinematics, LinkPosesAgreeWithTheWholeBodyModel) {
   Rng rng(4, 0, Stream::kSensor);
   const RobotDescription& robot = test::Go2();
-  const controller::WholeBodyModel model(robot, 9.81);
+  const core::WholeBodyModel model(robot, 9.81);
   for (int i = 0; i < 20; ++i) {
     const RobotState s = test::RandomState(rng);
-    controller::WholeBody wb;
+    core::WholeBody wb;
     model.Calc(s, wb);
     const auto poses = CalcLinkPoses(robot, s.p_WB, s.R_WB, s.q);
     for (const Leg leg : kLegs) {

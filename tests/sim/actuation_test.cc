@@ -35,16 +35,6 @@ TEST(Actuation, JointControlPullsTowardsTheTarget) {
   EXPECT_NEAR(tau[Leg::kHR].y(), 1.0, 1e-12);
 }
 
-TEST(Actuation, FrictionOpposesMotion) {
-  Actuation actuation(test::Go2());
-  LegArray<Vec3> qd = ZeroPerLeg();
-  qd[Leg::kFR] = {5.0, -5.0, 0.0};
-  const LegArray<Vec3> tau = actuation.Update({}, ZeroPerLeg(), qd, 1e-3);
-  EXPECT_NEAR(tau[Leg::kFR].x(), -0.2, 1e-6);
-  EXPECT_NEAR(tau[Leg::kFR].y(), 0.2, 1e-6);
-  EXPECT_EQ(tau[Leg::kFR].z(), 0.0);
-}
-
 TEST(Actuation, EnergyCountsWorkAndHeat) {
   Actuation actuation(test::Go2());
   JointCommand command;

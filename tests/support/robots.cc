@@ -27,7 +27,7 @@ terrains::Heightfield FlatGround(double friction, double size_m) {
   return terrains::Heightfield(
       n, spacing_m,
       std::vector<double>(static_cast<std::size_t>(n) * static_cast<std::size_t>(n), 0.0),
-      friction);
+      {.friction = friction});
 }
 
 terrains::Heightfield TiltedGround(double slope_rad, double friction) {
@@ -39,7 +39,7 @@ terrains::Heightfield TiltedGround(double slope_rad, double friction) {
       heights.push_back(std::tan(slope_rad) * (column - 200) * kSpacing_m);
     }
   }
-  return terrains::Heightfield(kNodes, kSpacing_m, std::move(heights), friction);
+  return terrains::Heightfield(kNodes, kSpacing_m, std::move(heights), {.friction = friction});
 }
 
 RobotState StandingState() {

@@ -4,7 +4,7 @@
 #include "core/robot/description.h"
 #include "core/robot/state.h"
 
-namespace scoria::controller {
+namespace scoria::core {
 
 /// What the controller believes of the robot's inertia beyond its URDF; adaptation updates it.
 struct ModelParameters {
@@ -36,8 +36,9 @@ struct WholeBody {
   LegArray<Vec3> p_WF, v_WF;  // foot sphere centres
   LegArray<Vec3> p_BF_W;      // from B's origin to the foot, in W
   LegArray<Mat3> J_ll;        // dv_WF / dqd_l; dv_WF / dv_B is [1, -Skew(p_BF_W)]
+  LegArray<Mat3> p_BJ_W;      // joint origins from B's origin, as columns
   LegArray<Vec3> Jd_v;        // acceleration of F at a = 0, qdd = 0
-  LegArray<Mat3> Jw_ll;       // dw_shank / dqd_l
+  LegArray<Mat3> Jw_ll;       // dw_shank / dqd_l, the joint axes as columns
   LegArray<Vec3> w_shank_W;   // angular velocity of the shank
   LegArray<Vec3> Jwd_v;       // angular acceleration of the shank at a = 0, qdd = 0
 };
@@ -45,8 +46,11 @@ struct WholeBody {
 /// Rigid-body dynamics of a quadruped. Cost: about 1 microsecond per Calc.
 class WholeBodyModel {
  public:
-  /// `robot` is borrowed. Gravity is along -z of W.
-  WholeBodyModel(const core::RobotDescription& robot, double gravity_mps2);
+  /// `robot` is borrowed.
+  WholeBodyModel(const RobotDescription& robot, const Vec3& gravity_W);
+  /// Gravity along -z of W.
+  WholeBodyModel(const RobotDescription& robot, double gravity_mps2)
+      : WholeBodyModel(robot, Vec3(0.0, 0.0, -gravity_mps2)) {}
 
   /// Replaces the trunk's inertia, as adaptation asks for.
   void SetParameters(const ModelParameters& parameters) noexcept;
@@ -54,12 +58,12 @@ class WholeBodyModel {
 
   void Calc(const RobotState& state, WholeBody& out) const noexcept;
 
-  [[nodiscard]] double gravity_mps2() const noexcept { return gravity_mps2_; }
-  [[nodiscard]] const core::RobotDescription& robot() const noexcept { return robot_; }
+  [[nodiscard]] double gravity_mps2() const noexcept { return gravity_W_.norm(); }
+  [[nodiscard]] const RobotDescription& robot() const noexcept { return robot_; }
 
  private:
-  const core::RobotDescription& robot_;
-  double gravity_mps2_;
+  const RobotDescription& robot_;
+  Vec3 gravity_W_;
   ModelParameters parameters_;
 };
 
@@ -68,16 +72,21 @@ struct LegKinematics {
   Vec3 p_BF = Vec3::Zero();
   Mat3 J = Mat3::Zero();
 };
-[[nodiscard]] LegKinematics CalcLegKinematics(const core::LegDescription& leg,
-                                              const Vec3& q) noexcept;
+[[nodiscard]] LegKinematics CalcLegKinematics(const LegDescription& leg, const Vec3& q) noexcept;
 
 /// Joint angles that put the foot centre at p_BF, from `q_guess`, by damped Newton within the joint
 /// limits. Returns the nearest pose found when p_BF is out of reach.
-[[nodiscard]] Vec3 SolveLegIk(const core::LegDescription& leg, const Vec3& p_BF,
+[[nodiscard]] Vec3 SolveLegIk(const LegDescription& leg, const Vec3& p_BF,
                               const Vec3& q_guess) noexcept;
+
+/// Kinetic energy, J, of the rotors' turning against the links included.
+[[nodiscard]] double CalcKineticEnergy(const WholeBody& wb) noexcept;
+
+/// Linear momentum and angular momentum about the centre of mass, in W.
+[[nodiscard]] Vec6 CalcMomentum(const WholeBody& wb) noexcept;
 
 /// The 18x18 mass matrix and 18-vector h in the order [trunk; FL; FR; HL; HR], for tests and tools.
 [[nodiscard]] Mat18 AssembleMassMatrix(const WholeBody& wb) noexcept;
 [[nodiscard]] Vec18 AssembleBias(const WholeBody& wb) noexcept;
 
-}  // namespace scoria::controller
+}  // namespace scoria::core

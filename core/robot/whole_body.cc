@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "controller/model/whole_body.h"
+#include "core/robot/whole_body.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,13 +8,8 @@
 
 #include "core/math/so3.h"
 
-namespace scoria::controller {
+namespace scoria::core {
 namespace {
-
-using core::Body;
-using core::JointDescription;
-using core::LegDescription;
-using core::Skew;
 
 /// Rotation about a unit axis; the axes of legs are mostly coordinate axes, where this is exact.
 Mat3 AxisRotation(const Vec3& axis, double angle) noexcept {
@@ -81,29 +76,29 @@ Composite InWorld(const Body& body, const LinkMotion& m) noexcept {
 }
 
 void CalcFoot(const LegDescription& leg, const std::array<LinkMotion, 3>& links, Leg which,
-              double gravity, WholeBody& out) noexcept {
+              const Vec3& gravity_W, WholeBody& out) noexcept {
   const LinkMotion& shank = links[2];
   const Vec3 r = shank.R * leg.p_LF;
   const Vec3 p_BF_W = shank.o + r;
   out.p_BF_W[which] = p_BF_W;
   out.p_WF[which] = out.state.p_WB + p_BF_W;
   out.v_WF[which] = shank.v_o + shank.w.cross(r);
-  out.Jd_v[which] =
-      shank.a_o + shank.alpha.cross(r) + shank.w.cross(shank.w.cross(r)) - Vec3(0.0, 0.0, gravity);
+  out.Jd_v[which] = shank.a_o + shank.alpha.cross(r) + shank.w.cross(shank.w.cross(r)) + gravity_W;
   out.w_shank_W[which] = shank.w;
   out.Jwd_v[which] = shank.alpha;
   for (int j = 0; j < 3; ++j) {
     const LinkMotion& link = links[static_cast<std::size_t>(j)];
     out.J_ll[which].col(j) = link.z.cross(p_BF_W - link.o);
     out.Jw_ll[which].col(j) = link.z;
+    out.p_BJ_W[which].col(j) = link.o;
   }
 }
 
 }  // namespace
 
-WholeBodyModel::WholeBodyModel(const core::RobotDescription& robot, double gravity_mps2)
+WholeBodyModel::WholeBodyModel(const RobotDescription& robot, const Vec3& gravity_W)
     : robot_(robot),
-      gravity_mps2_(gravity_mps2),
+      gravity_W_(gravity_W),
       parameters_{robot.trunk.mass_kg, robot.trunk.p_LC, robot.trunk.I_C_L} {}
 
 void WholeBodyModel::SetParameters(const ModelParameters& parameters) noexcept {
@@ -112,8 +107,8 @@ void WholeBodyModel::SetParameters(const ModelParameters& parameters) noexcept {
 
 void WholeBodyModel::Calc(const RobotState& state, WholeBody& out) const noexcept {
   out.state = state;
-  const Vec3 up(0.0, 0.0, gravity_mps2_);
-  const LinkMotion trunk{state.R_WB, Vec3::Zero(), state.w_WB, Vec3::Zero(), state.v_WB, up, {}};
+  const LinkMotion trunk{state.R_WB, Vec3::Zero(), state.w_WB, Vec3::Zero(),
+                         state.v_WB, -gravity_W_,  {}};
   const Body trunk_body{
       {}, parameters_.trunk_mass_kg, parameters_.p_BC_trunk, parameters_.I_C_B_trunk};
   Composite total = InWorld(trunk_body, trunk);
@@ -131,7 +126,7 @@ void WholeBodyModel::Calc(const RobotState& state, WholeBody& out) const noexcep
       bodies[j] = InWorld(description.links[j], links[j]);
       momentum += bodies[j].mass * (links[j].v_o + links[j].w.cross(bodies[j].c - links[j].o));
     }
-    CalcFoot(description, links, leg, gravity_mps2_, out);
+    CalcFoot(description, links, leg, gravity_W_, out);
 
     // Tip to root: composites give H, wrenches give h.
     Composite outer = bodies[2];
@@ -214,6 +209,26 @@ Vec3 SolveLegIk(const LegDescription& leg, const Vec3& p_BF, const Vec3& q_guess
   return q;
 }
 
+double CalcKineticEnergy(const WholeBody& wb) noexcept {
+  Vec6 v_B;
+  v_B << wb.state.v_WB, wb.state.w_WB;
+  double twice = v_B.dot(wb.H_BB * v_B);
+  for (const Leg leg : kLegs) {
+    const Vec3& qd = wb.state.qd[leg];
+    twice += 2.0 * v_B.dot(wb.H_Bl[leg] * qd) + qd.dot(wb.H_ll[leg] * qd);
+  }
+  return 0.5 * twice;
+}
+
+Vec6 CalcMomentum(const WholeBody& wb) noexcept {
+  Vec6 v_B;
+  v_B << wb.state.v_WB, wb.state.w_WB;
+  Vec6 momentum = wb.H_BB * v_B;  // angular about B's origin
+  for (const Leg leg : kLegs) momentum += wb.H_Bl[leg] * wb.state.qd[leg];
+  momentum.tail<3>() -= (wb.p_WC - wb.state.p_WB).cross(momentum.head<3>());
+  return momentum;
+}
+
 Mat18 AssembleMassMatrix(const WholeBody& wb) noexcept {
   Mat18 H = Mat18::Zero();
   H.topLeftCorner<6, 6>() = wb.H_BB;
@@ -233,4 +248,4 @@ Vec18 AssembleBias(const WholeBody& wb) noexcept {
   return h;
 }
 
-}  // namespace scoria::controller
+}  // namespace scoria::core
