@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/commands.h"
 
-#include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <csignal>
 #include <fstream>
 #include <memory>
@@ -14,16 +12,15 @@
 
 #include "analysis/import.h"
 #include "analysis/report.h"
-#include "analysis/terrain_view.h"
 #include "analysis/video/video.h"
 #include "app/campaign.h"
 #include "app/config_docs.h"
 #include "app/episode_files.h"
+#include "app/inspection.h"
 #include "app/progress.h"
 #include "app/qp_sets.h"
 #include "app/scenario.h"
 #include "app/verify.h"
-#include "core/files.h"
 #include "terrains/generator.h"
 
 namespace scoria::app {
@@ -186,93 +183,6 @@ void AddRender(CLI::App& app) {
   });
 }
 
-/// The terrain of a file, or of a preset by its name: terrains/NAME.yaml here or beside the
-/// program's build folder.
-terrains::TerrainParams LoadTerrain(const std::string& name, const std::vector<std::string>& set) {
-  namespace fs = std::filesystem;
-  fs::path file = name;
-  std::vector<std::string> presets;
-  const fs::path source =
-      fs::read_symlink("/proc/self/exe").parent_path().parent_path().parent_path().parent_path();
-  for (const fs::path& folder : {fs::path("terrains"), source / "terrains"}) {
-    if (fs::exists(file)) break;
-    if (fs::exists(folder / (name + ".yaml"))) file = folder / (name + ".yaml");
-    if (!fs::is_directory(folder) || !presets.empty()) continue;
-    for (const auto& entry : fs::directory_iterator(folder)) {
-      if (entry.path().extension() == ".yaml") presets.push_back(entry.path().stem().string());
-    }
-  }
-  if (!fs::exists(file)) {
-    std::sort(presets.begin(), presets.end());
-    throw core::ConfigError({name, 0, 0}, "terrain",
-                            fmt::format("is neither a file nor a preset; choices: {}{}",
-                                        fmt::join(presets, ", "), core::DidYouMean(name, presets)));
-  }
-  core::ConfigNode node = core::LoadConfig(file);
-  for (const std::string& assignment : set) core::ApplyOverride(node, assignment);
-  return core::ReadConfig<terrains::TerrainParams>(node);
-}
-
-void PrintTerrain(const terrains::TerrainParams& params, const terrains::TerrainStatistics& s,
-                  std::size_t rocks, const std::string& folder) {
-  constexpr double kDegrees = 180.0 / std::numbers::pi;
-  const terrains::RoughnessParams& asked = params.roughness;
-  fmt::print("{}: {:.1f} m of ground, {:.3f} m grid\n", params.name, params.size_m,
-             params.resolution_m);
-  const auto wanted = [&](double value) {
-    return asked.nu_1m_m > 0.0 ? fmt::format(" (asked {:.4f})", value) : "";
-  };
-  fmt::print("  RMS height difference  {:.4f} m at 0.1 m, {:.4f} m at 0.25 m, {:.4f} m at 1 m{}\n",
-             s.nu_10cm_m, s.nu_25cm_m, s.nu_1m_m, wanted(params.roughness_scale * asked.nu_1m_m));
-  fmt::print("  Hurst exponent         {:.4f}{}\n", s.hurst, wanted(asked.hurst));
-  fmt::print("  slope                  {:.1f} deg mean, {:.1f} deg 95 %\n",
-             s.slope_mean_rad * kDegrees, s.slope_95_rad * kDegrees);
-  if (params.rocks.area_fraction > 0.0) {
-    const double expected = terrains::RockDensity(params.rocks, params.rocks.min_diameter_m) *
-                            params.size_m * params.size_m;
-    fmt::print("  rocks                  {} (expected {:.0f} +- {:.0f})\n", rocks, expected,
-               std::sqrt(expected));
-  }
-  for (const auto& [name, fraction] : s.materials)
-    fmt::print("  {:22} {:.1f} %\n", name, 100.0 * fraction);
-  fmt::print("  files                  {}/relief.png, deviogram.png, terrain.json\n", folder);
-}
-
-void AddTerrain(CLI::App& app) {
-  struct Options {
-    std::string name, out;
-    std::vector<std::string> set;
-    std::uint64_t seed = 1;
-    bool json = false;
-  };
-  auto o = std::make_shared<Options>();
-  CLI::App* terrain =
-      app.add_subcommand("terrain", "make a ground, measure it, and draw its relief and deviogram");
-  terrain->add_option("terrain", o->name, "name of a preset, or a terrain YAML")->required();
-  terrain->add_option("--seed", o->seed, "master seed (default 1)");
-  terrain->add_option("--set", o->set, "override a key, as roughness_scale=2");
-  terrain->add_option("--out", o->out, "folder for the pictures (default out/terrain/NAME)");
-  terrain->add_flag("--json", o->json, "print terrain.json instead of a summary");
-  terrain->callback([o] {
-    const terrains::TerrainParams params = LoadTerrain(o->name, o->set);
-    const terrains::Heightfield ground = terrains::GenerateTerrain(params, o->seed, 0);
-    const terrains::TerrainStatistics statistics = terrains::MeasureTerrain(ground, params);
-    const std::filesystem::path folder = o->out.empty()
-                                             ? std::filesystem::path("out/terrain") / params.name
-                                             : std::filesystem::path(o->out);
-    analysis::WriteTerrainView(ground, params, statistics, folder);
-    if (o->json) {
-      fmt::print("{}", core::ReadText(folder / "terrain.json"));
-      return;
-    }
-    const double edge_m = ground.nodes() * ground.resolution_m();
-    const std::size_t rocks =
-        terrains::DrawRocks(params.rocks, edge_m, core::Rng(o->seed, 0, core::Stream::kRocks))
-            .size();
-    PrintTerrain(params, statistics, rocks, folder.string());
-  });
-}
-
 void AddBench(CLI::App& app) {
   struct Options {
     std::string folder;
@@ -342,8 +252,8 @@ void AddCommands(CLI::App& app, int& exit_code) {
   AddCampaign(app, exit_code);
   AddReport(app);
   AddBench(app);
+  AddInspection(app);
   AddSchema(app);
-  AddTerrain(app);
   AddRender(app);
   AddVerify(app, exit_code);
 }

@@ -12,7 +12,9 @@ LegArray<Vec3> StandingPose(const core::RobotDescription& robot, double height_m
   for (const Leg leg : kLegs) {
     Vec3 p_BF = robot.NeutralFoothold(leg);
     p_BF.z() = -height_m;
-    const Vec3 guess(0.0, 0.8, -1.6);
+    // The knee bends backwards, unless its limits forbid it.
+    const double way = robot.legs[leg].joints[2].lower_rad < 0.0 ? 1.0 : -1.0;
+    const Vec3 guess(0.0, 0.8 * way, -1.6 * way);
     pose[leg] = core::SolveLegIk(robot.legs[leg], p_BF, guess);
   }
   return pose;

@@ -8,6 +8,7 @@
 #include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>
 #include <btBulletCollisionCommon.h>
 
+#include "core/demand.h"
 #include "core/math/so3.h"
 #include "core/robot/kinematics.h"
 #include "sim/ground_contact.h"
@@ -41,8 +42,10 @@ std::unique_ptr<btCollisionShape> MakeShape(const Shape& shape) {
       return std::make_unique<btCapsuleShapeZ>(s.x(), std::max(0.0, s.y() - 2.0 * s.x()));
     case Shape::Kind::kSphere:
       return std::make_unique<btSphereShape>(s.x());
+    case Shape::Kind::kMesh:
+      break;
   }
-  return nullptr;
+  SCORIA_DEMAND(false, "a mesh does not collide; MakeRobot puts a box in its place");
 }
 
 /// The robot's bodies and the ground as Bullet sees them.

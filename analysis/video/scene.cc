@@ -2,15 +2,18 @@
 #include "analysis/video/scene.h"
 
 #include <cmath>
+#include <map>
 #include <stdexcept>
 #include <string>
 
 #include <GL/gl.h>
 #include <GL/glext.h>
+#include <fmt/format.h>
 
 #include "analysis/video/gl_context.h"
 #include "analysis/video/meshes.h"
 #include "core/robot/kinematics.h"
+#include "core/robot/mesh.h"
 
 namespace scoria::analysis {
 namespace {
@@ -229,8 +232,26 @@ struct Scene::Impl {
         case core::Shape::Kind::kSphere:
           DrawMesh(sphere, Transform(R, p, Vec3::Constant(s.x())), shape.colour);
           break;
+        case core::Shape::Kind::kMesh:
+          DrawMesh(LinkMesh(shape), Transform(R, p, Vec3::Ones()), shape.colour);
+          break;
       }
     }
+  }
+
+  /// A mesh of the robot, read once; nothing where the file is gone.
+  const GpuMesh& LinkMesh(const core::Shape& shape) {
+    const auto key = shape.mesh.string() + fmt::format(" {}", fmt::join(shape.size_m, " "));
+    const auto [it, is_new] = link_meshes.try_emplace(key);
+    if (!is_new) return it->second;
+    MeshData data;
+    if (const auto mesh = core::LoadMesh(shape.mesh, shape.size_m)) {
+      for (std::size_t i = 0; i < mesh->points.size(); ++i)
+        data.AddVertex(mesh->points[i], mesh->normals[i]);
+      data.indices = mesh->triangles;
+    }
+    it->second = Upload(data, {});
+    return it->second;
   }
 
   void DrawStick(const Stick& stick) {
@@ -251,6 +272,7 @@ struct Scene::Impl {
   Gl gl;
   GLuint program = 0, framebuffer = 0;
   GpuMesh box, cylinder, sphere, patch;
+  std::map<std::string, GpuMesh> link_meshes;
   Vec2 patch_centre = Vec2::Zero();
 };
 

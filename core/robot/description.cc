@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/robot/description.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <map>
 #include <sstream>
 
+#include <console_bridge/console.h>
 #include <urdf_parser/urdf_parser.h>
+
+#include "core/robot/mesh.h"
+#include "core/robot/normalise.h"
 
 namespace scoria::core {
 namespace {
@@ -45,6 +50,21 @@ void MergeInertia(Body& body, double mass, const Vec3& p_LC, const Mat3& I_C_L) 
   body.p_LC = c;
 }
 
+/// Collects what urdfdom complains about while it lives; urdfdom itself goes on with zeros.
+class UrdfComplaints : public console_bridge::OutputHandler {
+ public:
+  UrdfComplaints() { console_bridge::useOutputHandler(this); }
+  ~UrdfComplaints() override { console_bridge::restorePreviousOutputHandler(); }
+  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR)
+      errors_ += (errors_.empty() ? "" : "; ") + text;
+  }
+  [[nodiscard]] const std::string& errors() const { return errors_; }
+
+ private:
+  std::string errors_;
+};
+
 /// Walks the URDF tree, merging fixed links into the thirteen bodies.
 class TreeWalker {
  public:
@@ -72,7 +92,8 @@ class TreeWalker {
     for (const Leg leg : kLegs) {
       if (robot_.legs[leg].foot_radius_m <= 0.0) {
         Fail(config_, "legs",
-             fmt::format("foot link \"{}\" is missing or has no collision sphere",
+             fmt::format("foot link \"{}\" is missing or has no collision sphere (and the robot's "
+                         "YAML no foot_radius_m)",
                          config_.legs.ToLegArray()[leg].foot));
       }
     }
@@ -113,8 +134,11 @@ class TreeWalker {
     if (body != (j == 0 ? 0 : index - 1)) {
       Fail(config_, joint.name, "does not follow the chain trunk, HAA, HFE, KFE");
     }
-    if (!joint.limits || joint.limits->effort <= 0.0) {
-      Fail(config_, joint.name, "needs a limit element with a positive effort");
+    if (!joint.limits) Fail(config_, joint.name, "needs a limit element");
+    if (!(joint.limits->lower < joint.limits->upper)) {
+      Fail(config_, joint.name,
+           fmt::format("lower limit {} must be below upper limit {}", joint.limits->lower,
+                       joint.limits->upper));
     }
     robot_.legs[leg].joints[j] = {joint.name,
                                   X_J.p,
@@ -123,34 +147,44 @@ class TreeWalker {
                                   joint.limits->lower,
                                   joint.limits->upper,
                                   joint.limits->effort,
-                                  joint.limits->velocity};
+                                  joint.limits->velocity,
+                                  1.0,
+                                  0.0};
     seen_.insert({joint.name, index});
     Visit(*child, index, Pose{});
   }
 
   void AddInertia(const urdf::Link& link, int body, const Pose& X_L) {
     const urdf::Inertial& in = *link.inertial;
-    if (in.mass < 0.0 || !std::isfinite(in.mass)) {
+    if (in.mass < 0.0) {
       Fail(config_, link.name, fmt::format("mass {} must be >= 0", in.mass));
     }
     Mat3 I;
     I << in.ixx, in.ixy, in.ixz, in.ixy, in.iyy, in.iyz, in.ixz, in.iyz, in.izz;
+    if (in.mass > 0.0 && I.diagonal().minCoeff() < 0.0) {
+      Fail(config_, link.name, "inertia must not be negative");
+    }
     const Pose X_C = X_L * in.origin;
     MergeInertia(BodyAt(body), in.mass, X_C.p, X_C.R * I * X_C.R.transpose());
   }
 
   void AddShapes(const urdf::Link& link, int body, const Pose& X_L) {
-    for (const auto& collision : link.collision_array) {
-      if (!collision->geometry) continue;
-      Shape shape = ToShape(*collision->geometry, body, X_L * collision->origin);
-      const auto foot = foot_leg_.find(link.name);
-      if (foot != foot_leg_.end() && shape.kind == Shape::Kind::kSphere) {
-        LegDescription& leg = robot_.legs[foot->second];
-        leg.p_LF = shape.p_LG;
-        leg.foot_radius_m = shape.size_m.x();
-        shape.is_foot = true;
+    const auto foot = foot_leg_.find(link.name);
+    const bool is_foot = foot != foot_leg_.end();
+    if (is_foot) CheckFoot(link, foot->second, body);
+    if (is_foot && config_.foot_radius_m > 0.0) {  // stands for whatever the link collides as
+      Shape sphere;
+      sphere.kind = Shape::Kind::kSphere;
+      sphere.body = body;
+      sphere.size_m = {config_.foot_radius_m, 0.0, 0.0};
+      sphere.p_LG = X_L.p;
+      AddCollision(sphere, link.name, &robot_.legs[foot->second]);
+    } else {
+      for (const auto& collision : link.collision_array) {
+        if (!collision->geometry) continue;
+        AddCollision(ToShape(*collision->geometry, body, X_L * collision->origin), link.name,
+                     is_foot ? &robot_.legs[foot->second] : nullptr);
       }
-      robot_.collisions.push_back(shape);
     }
     for (const auto& visual : link.visual_array) {
       if (!visual->geometry) continue;
@@ -159,8 +193,44 @@ class TreeWalker {
         const urdf::Color& c = visual->material->color;
         shape.colour = {c.r, c.g, c.b};
       }
+      if (shape.kind == Shape::Kind::kMesh && !std::filesystem::exists(shape.mesh)) {
+        Remark(fmt::format("{}: visual mesh {} is missing and not drawn", link.name,
+                           shape.mesh.string()));
+        continue;
+      }
       robot_.visuals.push_back(shape);
     }
+  }
+
+  void CheckFoot(const urdf::Link& link, Leg leg, int body) const {
+    if (body == BodyIndex(leg, Joint::kKFE)) return;
+    Fail(config_, link.name, "is named as a foot, but is not fixed to its leg's KFE link");
+  }
+
+  /// @param foot_of  the leg whose foot the link is, if any: its first sphere is the foot.
+  void AddCollision(Shape shape, const std::string& link, LegDescription* foot_of) {
+    shape = Solid(shape, link);
+    if (foot_of != nullptr && shape.kind == Shape::Kind::kSphere && foot_of->foot_radius_m == 0.0) {
+      shape.is_foot = true;
+      foot_of->p_LF = shape.p_LG;
+      foot_of->foot_radius_m = shape.size_m.x();
+    }
+    robot_.collisions.push_back(shape);
+  }
+
+  /// A mesh in collision becomes the box around it.
+  Shape Solid(const Shape& shape, const std::string& link) {
+    if (shape.kind != Shape::Kind::kMesh) return shape;
+    const auto bounds = CalcMeshBounds(shape.mesh, shape.size_m);
+    if (!bounds) {
+      Fail(config_, link, fmt::format("collision mesh {} cannot be read", shape.mesh.string()));
+    }
+    Remark(fmt::format("{}: collides as the box around {}", link, shape.mesh.filename().string()));
+    Shape box = shape;
+    box.kind = Shape::Kind::kBox;
+    box.size_m = bounds->high - bounds->low;
+    box.p_LG = shape.p_LG + shape.R_LG * (0.5 * (bounds->low + bounds->high));
+    return box;
   }
 
   Shape ToShape(const urdf::Geometry& geometry, int body, const Pose& X_G) const {
@@ -179,10 +249,15 @@ class TreeWalker {
       shape.kind = Shape::Kind::kSphere;
       shape.size_m = {dynamic_cast<const urdf::Sphere&>(geometry).radius, 0.0, 0.0};
     } else {
-      Fail(config_, robot_.body(body).name, "has a mesh; use box, cylinder or sphere");
+      const auto& mesh = dynamic_cast<const urdf::Mesh&>(geometry);
+      shape.kind = Shape::Kind::kMesh;
+      shape.size_m = ToVec3(mesh.scale);
+      shape.mesh = FindMesh(mesh.filename, config_.urdf);
     }
     return shape;
   }
+
+  void Remark(const std::string& text) { robot_.remarks.push_back(text); }
 
   const RobotConfig& config_;
   const urdf::ModelInterface& model_;
@@ -191,6 +266,15 @@ class TreeWalker {
   std::map<std::string, Leg> foot_leg_;
   bool imu_on_trunk_ = false;
 };
+
+/// Bodies without visuals are drawn as what they collide as.
+void DrawBareBodies(RobotDescription& robot) {
+  std::array<bool, kNumBodies> drawn{};
+  for (const Shape& shape : robot.visuals) drawn[static_cast<std::size_t>(shape.body)] = true;
+  for (const Shape& shape : robot.collisions) {
+    if (!drawn[static_cast<std::size_t>(shape.body)]) robot.visuals.push_back(shape);
+  }
+}
 
 }  // namespace
 
@@ -227,12 +311,21 @@ RobotDescription LoadRobot(const RobotConfig& config) {
   if (!in) Fail(config, "urdf", "cannot read the file");
   std::stringstream text;
   text << in.rdbuf();
-  return MakeRobot(config, text.str());
+  const RobotDescription robot = MakeRobot(config, text.str());
+  for (const Leg leg : kLegs) {
+    for (const JointDescription& joint : robot.legs[leg].joints) {
+      if (joint.effort_Nm <= 0.0) Fail(config, joint.name, "needs a positive effort limit");
+    }
+  }
+  return robot;
 }
 
 RobotDescription MakeRobot(const RobotConfig& config, const std::string& urdf_text) {
+  const UrdfComplaints complaints;
   const auto model = urdf::parseURDF(urdf_text);
-  if (!model) Fail(config, "urdf", "not a valid URDF");
+  if (!model || !complaints.errors().empty()) {
+    Fail(config, "urdf", fmt::format("not a valid URDF: {}", complaints.errors()));
+  }
   RobotDescription robot;
   robot.config = config;
   robot.urdf_text = urdf_text;
@@ -240,6 +333,10 @@ RobotDescription MakeRobot(const RobotConfig& config, const std::string& urdf_te
   for (int i = 0; i < kNumBodies; ++i) {
     if (robot.body(i).mass_kg <= 0.0) Fail(config, robot.body(i).name, "needs a positive mass");
   }
+  DrawBareBodies(robot);
+  const std::string problem = NormaliseJoints(robot);
+  if (!problem.empty()) Fail(config, "legs", problem);
+  DeriveDefaults(robot);
   return robot;
 }
 

@@ -11,7 +11,8 @@
 
 namespace scoria::core {
 
-/// Names that tie a leg of the house convention to a URDF.
+/// Names that tie a leg of the house convention to a URDF. Signs and zeros of the joints are found
+/// from its geometry.
 struct LegNames {
   std::string haa, hfe, kfe;  // joints
   std::string foot;           // link whose collision sphere is the foot
@@ -62,11 +63,13 @@ struct RobotConfig {
   std::filesystem::path urdf;
   LegNamesPerLeg legs;
   std::string imu_link;
-  double nominal_height_m = 0.30;
-  Vec3 stance_front_m = Vec3(0.19, 0.14, 0.0);
-  Vec3 stance_hind_m = Vec3(-0.19, 0.14, 0.0);
-  Vec3 lying_pose_rad = Vec3(0.0, 1.34, -2.67);
-  double max_leg_length_m = 0.40;
+  // 0 (or a zero vector) in these: MakeRobot derives them from the legs.
+  double nominal_height_m = 0.0;
+  Vec3 stance_front_m = Vec3::Zero();
+  Vec3 stance_hind_m = Vec3::Zero();
+  Vec3 lying_pose_rad = Vec3::Zero();
+  double max_leg_length_m = 0.0;
+  double foot_radius_m = 0.0;
   bool has_foot_sensors = true;
   MotorParams motors;
   template <class Archive>
@@ -76,13 +79,23 @@ struct RobotConfig {
     a.Required("legs", legs);
     a.Field("imu_link", imu_link, {.doc = "link at the IMU; empty: the base link"});
     a.Field("nominal_height_m", nominal_height_m,
-            {.min = 0.05, .max = 2.0, .doc = "COM over the ground when walking"});
+            {.min = 0.0,
+             .max = 2.0,
+             .doc = "trunk over the ground when walking; 0: 0.7 of thigh and shank"});
     a.Field("stance_front_m", stance_front_m,
-            {.doc = "neutral front left foothold from the base link, x y; mirrored to the right"});
+            {.doc = "neutral front left foothold from the base link, x y; mirrored to the right; "
+                    "zeros: below the thigh"});
     a.Field("stance_hind_m", stance_hind_m, {.doc = "as stance_front_m, hind"});
-    a.Field("lying_pose_rad", lying_pose_rad, {.doc = "HAA, HFE, KFE when folded on the ground"});
+    a.Field("lying_pose_rad", lying_pose_rad,
+            {.doc = "HAA, HFE, KFE when folded on the ground; zeros: the knee as far as it goes"});
     a.Field("max_leg_length_m", max_leg_length_m,
-            {.min = 0.05, .max = 2.0, .doc = "hip to foot; footholds beyond are clipped"});
+            {.min = 0.0,
+             .max = 2.0,
+             .doc = "hip to foot; footholds beyond are clipped; 0: thigh and shank less 0.02"});
+    a.Field("foot_radius_m", foot_radius_m,
+            {.min = 0.0,
+             .max = 0.5,
+             .doc = "sphere about the foot link; 0: the link's own collision sphere"});
     a.Field("has_foot_sensors", has_foot_sensors);
     a.Field("motors", motors);
   }
@@ -97,12 +110,15 @@ struct Body {
   Mat3 I_C_L = Mat3::Zero();  // kg m^2, about C, in L
 };
 
+/// A revolute joint in the house convention: HAA about +x, HFE and KFE about +y of the trunk when
+/// q = 0, where the leg hangs straight down. The URDF's angle is urdf_sign q + urdf_zero_rad.
 struct JointDescription {
   std::string name;
   Vec3 p_PJ = Vec3::Zero();  // joint frame in the parent link
   Mat3 R_PJ = Mat3::Identity();
   Vec3 axis_J = Vec3::UnitX();
   double lower_rad = 0.0, upper_rad = 0.0, effort_Nm = 0.0, velocity_radps = 0.0;
+  double urdf_sign = 1.0, urdf_zero_rad = 0.0;
 };
 
 struct LegDescription {
@@ -112,14 +128,16 @@ struct LegDescription {
   double foot_radius_m = 0.0;
 };
 
-/// A primitive for collision or drawing, fixed to a body: 0 the trunk, 1 + 3 leg + joint a link.
+/// A shape for collision or drawing, fixed to a body: 0 the trunk, 1 + 3 leg + joint a link. Meshes
+/// are for drawing only.
 struct Shape {
-  enum class Kind { kBox, kCylinder, kSphere };
+  enum class Kind { kBox, kCylinder, kSphere, kMesh };
   Kind kind = Kind::kBox;
   int body = 0;
   bool is_foot = false;
-  Vec3 size_m = Vec3::Zero();  // box: full edges; cylinder: radius, length; sphere: radius
-  Vec3 p_LG = Vec3::Zero();    // geometry centre in the body's link frame; cylinders along their z
+  Vec3 size_m = Vec3::Zero();  // box: edges; cylinder: radius, length; sphere: radius; mesh: scale
+  std::filesystem::path mesh;
+  Vec3 p_LG = Vec3::Zero();  // geometry centre in the body's link frame; cylinders along their z
   Mat3 R_LG = Mat3::Identity();
   std::array<float, 3> colour = {0.7f, 0.7f, 0.7f};
 };
@@ -134,6 +152,7 @@ struct RobotDescription {
   Vec3 p_BS = Vec3::Zero();  // IMU in the trunk
   Mat3 R_BS = Mat3::Identity();
   std::vector<Shape> collisions, visuals;
+  std::vector<std::string> remarks;  // what of the URDF could not be taken as it stands
 
   [[nodiscard]] double total_mass_kg() const;
   /// Neutral foothold in the trunk frame at z = 0: below the hip, widened by the abduction link.
@@ -148,11 +167,13 @@ inline constexpr int kNumBodies = 1 + kNumJoints;
   return 1 + kJointsPerLeg * static_cast<int>(leg) + static_cast<int>(joint);
 }
 
-/// Loads the URDF that `config` names.
+/// Loads the URDF that `config` names, and refuses a robot that could not walk.
 /// Errors: ConfigError that names the file and what is missing or wrong.
 [[nodiscard]] RobotDescription LoadRobot(const RobotConfig& config);
 
-/// As LoadRobot, from URDF text (a log carries it).
+/// The robot of a URDF text (a log carries it): a trunk and four legs of HAA, HFE, KFE, fixed links
+/// merged, joints in the house convention.
+/// Errors: as LoadRobot, but joints without effort are let through, for inspection.
 [[nodiscard]] RobotDescription MakeRobot(const RobotConfig& config, const std::string& urdf_text);
 
 }  // namespace scoria::core

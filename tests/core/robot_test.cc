@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
+#include "core/files.h"
+#include "core/robot/inspect.h"
 #include "core/robot/kinematics.h"
+#include "core/robot/mesh.h"
 #include "core/robot/whole_body.h"
 #include "tests/support/robots.h"
 
@@ -67,12 +72,128 @@ TEST(RobotErrors, SayWhatIsWrongWithAUrdf) {
   EXPECT_EQ(ErrorOf(urdf, "<joint name=\"FL_calf_joint\"", "<joint name=\"FL_knee\""),
             "go2.urdf: FL_knee: is a movable joint that no leg names; it must be fixed or revolute "
             "in a leg");
+  EXPECT_EQ(ErrorOf(urdf, "<joint name=\"FL_calf_joint\" type=\"revolute\"",
+                    "<joint name=\"FL_calf_joint\" type=\"fixed\""),
+            "go2.urdf: FL_foot: is named as a foot, but is not fixed to its leg's KFE link");
   EXPECT_EQ(ErrorOf(urdf, "mass value=\"6.921\"", "mass value=\"-1\""),
             "go2.urdf: base_link: mass -1 must be >= 0");
+  EXPECT_EQ(
+      ErrorOf(urdf, "mass value=\"6.921\"", "mass value=\"nan\""),
+      "go2.urdf: urdf: not a valid URDF: Inertial: mass [nan] is not a float; Could not parse "
+      "inertial element for Link [base_link]");
+  EXPECT_EQ(ErrorOf(urdf, "ixx=\"0.02448\"", "ixx=\"nan\""),
+            "go2.urdf: urdf: not a valid URDF: Inertial: inertia element ixx is not a valid "
+            "double; Could not parse inertial element for Link [base_link]");
+  EXPECT_EQ(ErrorOf(urdf, "ixx=\"0.02448\"", "ixx=\"-0.02\""),
+            "go2.urdf: base_link: inertia must not be negative");
   EXPECT_EQ(ErrorOf(urdf, "<sphere radius=\"0.022\"/>", "<box size=\"1 1 1\"/>"),
-            "go2.urdf: legs: foot link \"FL_foot\" is missing or has no collision sphere");
-  EXPECT_EQ(ErrorOf(urdf, "effort=\"23.7\"", "effort=\"0\""),
-            "go2.urdf: FL_hip_joint: needs a limit element with a positive effort");
+            "go2.urdf: legs: foot link \"FL_foot\" is missing or has no collision sphere (and the "
+            "robot's YAML no foot_radius_m)");
+  EXPECT_EQ(ErrorOf(urdf, "lower=\"-1.0472\" upper=\"1.0472\"", "lower=\"1\" upper=\"-1\""),
+            "go2.urdf: FL_hip_joint: lower limit 1 must be below upper limit -1");
+  EXPECT_EQ(ErrorOf(urdf, "<axis xyz=\"1 0 0\"/>", "<axis xyz=\"0 0 1\"/>"),
+            "go2.urdf: legs: FL_hip_joint turns about (0.00 0.00 1.00) of the trunk, not about its "
+            "x axis");
+  EXPECT_EQ(ErrorOf(urdf, "<parent link=\"FL_hip\"/>", "<parent link=\"FR_hip\"/>"),
+            "go2.urdf: FL_thigh_joint: does not follow the chain trunk, HAA, HFE, KFE");
+  EXPECT_EQ(ErrorOf(urdf, "</robot>", ""),
+            "go2.urdf: urdf: not a valid URDF: Error reading end tag.");
+}
+
+RobotConfig ConfigOf(const std::string& path) {
+  return ReadConfig<RobotConfig>(LoadConfig(test::SourcePath(path)));
+}
+
+TEST(RobotErrors, RobotWithoutTorqueIsRefusedForWalking) {
+  test::TemporaryFolder folder;
+  std::string urdf = test::Go2().urdf_text;
+  const std::string from = "effort=\"23.7\"";
+  urdf.replace(urdf.find(from), from.size(), "effort=\"0\"");
+  RobotConfig config = test::Go2().config;
+  config.urdf = folder.path() / "weak.urdf";
+  WriteText(config.urdf, urdf);
+  try {
+    (void)LoadRobot(config);
+    FAIL();
+  } catch (const ConfigError& e) {
+    EXPECT_TRUE(
+        std::string(e.what()).ends_with("weak.urdf: FL_hip_joint: needs a positive effort limit"))
+        << e.what();
+  }
+}
+
+// B12: totals of the reference digest, section 2.
+TEST(B12, MassAndCentreOfMassAreTheReferences) {
+  const RobotDescription robot = LoadRobot(ConfigOf("robots/b12/b12.yaml"));
+  EXPECT_NEAR(robot.total_mass_kg(), 10.8475, 1e-4);
+  const WholeBodyModel model(robot, 9.81);
+  WholeBody wb;
+  model.Calc(RobotState{}, wb);
+  EXPECT_LT((wb.p_WC - Vec3(0.0001, -0.0002, -0.0133)).norm(), 1e-4);
+  RobotState stand;
+  stand.q = LegArray<Vec3>({0.126, 0.61, -1.22}, {-0.126, 0.61, -1.22}, {0.126, 0.61, -1.22},
+                           {-0.126, 0.61, -1.22});
+  model.Calc(stand, wb);
+  EXPECT_LT((wb.p_WC - Vec3(-0.0054, -0.0002, -0.0079)).norm(), 1e-4);
+  EXPECT_FALSE(robot.config.has_foot_sensors);
+}
+
+/// Trunk and feet of a robot are where its URDF puts them, whatever the joints are called and
+/// however they turn: the same pose by the URDF's angles and by ours.
+TEST(OtherRobots, JointsOfAnySignAndZeroBecomeTheHouses) {
+  for (const char* name : {"mule", "kid"}) {
+    const RobotDescription robot =
+        LoadRobot(ConfigOf(fmt::format("tests/data/robots/{0}/{0}.yaml", name)));
+    for (const Leg leg : kLegs) {
+      const LegDescription& l = robot.legs[leg];
+      const Vec3 straight = CalcLegKinematics(l, Vec3::Zero()).p_BF;
+      const Vec3 hip = l.joints[0].p_PJ + l.joints[1].p_PJ;
+      EXPECT_NEAR(straight.x(), hip.x(), 2e-3) << name;
+      EXPECT_LT(straight.z(), hip.z() - 0.1) << name;
+      // Positive HAA lifts the left foot outwards, positive HFE swings the foot back.
+      EXPECT_GT(CalcLegKinematics(l, {0.1, 0.0, 0.0}).p_BF.y(), straight.y()) << name;
+      EXPECT_LT(CalcLegKinematics(l, {0.0, 0.1, 0.0}).p_BF.x(), straight.x()) << name;
+      EXPECT_LT(l.joints[2].upper_rad, 0.0) << name << ": the knee bends backwards";
+    }
+  }
+  const RobotDescription mule = LoadRobot(ConfigOf("tests/data/robots/mule/mule.yaml"));
+  EXPECT_EQ(mule.legs[Leg::kFL].joints[1].urdf_sign, -1.0);
+  EXPECT_NEAR(mule.legs[Leg::kFL].joints[2].urdf_zero_rad, 1.3, 1e-6);
+  EXPECT_NEAR(mule.total_mass_kg(), 29.45, 1e-6);  // with its fixed links
+  const RobotDescription kid = LoadRobot(ConfigOf("tests/data/robots/kid/kid.yaml"));
+  EXPECT_EQ(kid.legs[Leg::kFR].joints[0].urdf_sign, -1.0);
+  EXPECT_NEAR(kid.legs[Leg::kFR].joints[0].urdf_zero_rad, 0.3, 1e-6);
+  EXPECT_EQ(kid.legs[Leg::kFL].foot_radius_m, 0.014);
+}
+
+TEST(OtherRobots, MeshesAreDrawnAndCollideAsTheirBox) {
+  const RobotDescription mule = LoadRobot(ConfigOf("tests/data/robots/mule/mule.yaml"));
+  const auto trunk = std::find_if(mule.collisions.begin(), mule.collisions.end(),
+                                  [](const Shape& s) { return s.body == 0; });
+  ASSERT_NE(trunk, mule.collisions.end());
+  EXPECT_EQ(trunk->kind, Shape::Kind::kBox);
+  EXPECT_LT((trunk->size_m - Vec3(0.62, 0.24, 0.16)).norm(), 1e-6);
+  const auto mesh = std::find_if(mule.visuals.begin(), mule.visuals.end(),
+                                 [](const Shape& s) { return s.kind == Shape::Kind::kMesh; });
+  ASSERT_NE(mesh, mule.visuals.end());
+  EXPECT_TRUE(LoadMesh(mesh->mesh, mesh->size_m).has_value());
+}
+
+TEST(Inspect, NamesWhatLooksWrong) {
+  EXPECT_TRUE(FindSuspicions(test::Go2()).empty());
+  const auto found = [](const std::string& from, const std::string& to) {
+    std::string urdf = test::Go2().urdf_text;
+    urdf.replace(urdf.find(from), from.size(), to);
+    return fmt::format("{}", fmt::join(FindSuspicions(MakeRobot(test::Go2().config, urdf)), "; "));
+  };
+  EXPECT_EQ(found("effort=\"23.7\"", "effort=\"0\""),
+            "FL_hip_joint: effort limit is 0, so the robot cannot walk; FL and FR are no mirror "
+            "images: effort of HAA 0 and 23.7 Nm");
+  EXPECT_EQ(found("ixx=\"0.02448\"", "ixx=\"0.002448\""),
+            "base_link: principal moments 0.00245, 0.0982, 0.107 kg m^2 violate the triangle "
+            "inequality");
+  EXPECT_EQ(found("<mass value=\"1.152\"/>", "<mass value=\"2\"/>"),
+            "FL and FR are no mirror images: mass of the HFE link 2 and 1.152 kg");
 }
 
 }  // namespace

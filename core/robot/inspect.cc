@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/robot/inspect.h"
+
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+#include "core/robot/normalise.h"
+
+namespace scoria::core {
+namespace {
+
+constexpr double kRelative = 0.02;  // asymmetry that a maker's rounding does not explain
+constexpr std::array<const char*, 3> kJointNames = {"HAA", "HFE", "KFE"};
+
+bool Differ(double a, double b, double floor) {
+  return std::abs(a - b) > kRelative * std::max(std::abs(a), std::abs(b)) + floor;
+}
+
+/// Principal moments satisfy a + b >= c for any distribution of mass.
+void CheckInertia(const Body& body, std::vector<std::string>& out) {
+  const Vec3 m = Eigen::SelfAdjointEigenSolver<Mat3>(body.I_C_L).eigenvalues();
+  if (m[0] <= 0.0) {
+    out.push_back(fmt::format("{}: inertia has a principal moment of {:.3g} kg m^2, not positive",
+                              body.name, m[0]));
+  } else if (m[0] + m[1] < m[2] * (1.0 - 1e-6)) {
+    out.push_back(fmt::format(
+        "{}: principal moments {:.3g}, {:.3g}, {:.3g} kg m^2 violate the triangle inequality",
+        body.name, m[0], m[1], m[2]));
+  }
+  const double radius_m = std::sqrt(m[2] / body.mass_kg);
+  constexpr double kWidest_m = 1.0;
+  if (radius_m > kWidest_m) {
+    out.push_back(fmt::format("{}: radius of gyration {:.2f} m for {:.3g} kg", body.name, radius_m,
+                              body.mass_kg));
+  }
+}
+
+void CheckMirror(const RobotDescription& robot, Leg left, Leg right,
+                 std::vector<std::string>& out) {
+  const LegDescription &l = robot.legs[left], &r = robot.legs[right];
+  constexpr double kFloor_m = 1e-3, kFloor_kg = 1e-3, kFloor_kgm2 = 1e-5, kFloor_rad = 0.02;
+  const auto tell = [&](const std::string& what, double a, double b, const char* unit) {
+    out.push_back(fmt::format("{} and {} are no mirror images: {} {:.4g} and {:.4g} {}",
+                              LegName(left), LegName(right), what, a, b, unit));
+  };
+  for (std::size_t j = 0; j < 3; ++j) {
+    const Body &bl = l.links[j], &br = r.links[j];
+    const std::string name = kJointNames[j];
+    if (Differ(bl.mass_kg, br.mass_kg, kFloor_kg))
+      tell("mass of the " + name + " link", bl.mass_kg, br.mass_kg, "kg");
+    for (int i = 0; i < 3; ++i) {
+      const double sign = i == 1 ? -1.0 : 1.0;
+      if (Differ(bl.p_LC[i], sign * br.p_LC[i], kFloor_m))
+        tell(fmt::format("{} of the COM of the {} link", "xyz"[i], name), bl.p_LC[i], br.p_LC[i],
+             "m");
+      if (Differ(bl.I_C_L(i, i), br.I_C_L(i, i), kFloor_kgm2))
+        tell(fmt::format("I{0}{0} of the {1} link", "xyz"[i], name), bl.I_C_L(i, i), br.I_C_L(i, i),
+             "kg m^2");
+      if (Differ(l.joints[j].p_PJ[i], sign * r.joints[j].p_PJ[i], kFloor_m))
+        tell(fmt::format("{} of the {} joint", "xyz"[i], name), l.joints[j].p_PJ[i],
+             r.joints[j].p_PJ[i], "m");
+    }
+    if (Differ(l.joints[j].effort_Nm, r.joints[j].effort_Nm, 0.0))
+      tell("effort of " + name, l.joints[j].effort_Nm, r.joints[j].effort_Nm, "Nm");
+    // HAA turns outwards on either side: its limits change places.
+    const bool swapped = j == 0;
+    const double lower = swapped ? -r.joints[j].upper_rad : r.joints[j].lower_rad;
+    const double upper = swapped ? -r.joints[j].lower_rad : r.joints[j].upper_rad;
+    if (Differ(l.joints[j].lower_rad, lower, kFloor_rad))
+      tell("lower limit of " + name, l.joints[j].lower_rad, lower, "rad");
+    if (Differ(l.joints[j].upper_rad, upper, kFloor_rad))
+      tell("upper limit of " + name, l.joints[j].upper_rad, upper, "rad");
+  }
+  if (Differ(ShankLength(l), ShankLength(r), kFloor_m))
+    tell("shank", ShankLength(l), ShankLength(r), "m");
+  if (Differ(l.foot_radius_m, r.foot_radius_m, 0.0))
+    tell("foot radius", l.foot_radius_m, r.foot_radius_m, "m");
+}
+
+}  // namespace
+
+std::vector<std::string> FindSuspicions(const RobotDescription& robot) {
+  std::vector<std::string> out = robot.remarks;
+  for (int i = 0; i < kNumBodies; ++i) CheckInertia(robot.body(i), out);
+  for (const Leg leg : kLegs) {
+    for (const JointDescription& joint : robot.legs[leg].joints) {
+      if (joint.effort_Nm <= 0.0)
+        out.push_back(fmt::format("{}: effort limit is {}, so the robot cannot walk", joint.name,
+                                  joint.effort_Nm));
+      if (joint.velocity_radps <= 0.0)
+        out.push_back(fmt::format("{}: velocity limit is {}, taken as unlimited", joint.name,
+                                  joint.velocity_radps));
+    }
+  }
+  CheckMirror(robot, Leg::kFL, Leg::kFR, out);
+  CheckMirror(robot, Leg::kHL, Leg::kHR, out);
+  return out;
+}
+
+}  // namespace scoria::core

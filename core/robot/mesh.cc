@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/robot/mesh.h"
+
+#include <assimp/Importer.hpp>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+namespace scoria::core {
+
+std::optional<TriangleMesh> LoadMesh(const std::filesystem::path& file, const Vec3& scale) {
+  Assimp::Importer importer;
+  // URDF defines the frame; Collada's own up axis must not turn it.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
+                              aiPrimitiveType_LINE | aiPrimitiveType_POINT);
+  const aiScene* scene =
+      importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_GenSmoothNormals |
+                                           aiProcess_SortByPType | aiProcess_PreTransformVertices);
+  if (scene == nullptr) return std::nullopt;
+  TriangleMesh mesh;
+  for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
+    const aiMesh& part = *scene->mMeshes[m];
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    for (unsigned v = 0; v < part.mNumVertices; ++v) {
+      const aiVector3D &p = part.mVertices[v], &n = part.mNormals[v];
+      mesh.points.push_back(scale.cwiseProduct(Vec3(p.x, p.y, p.z)));
+      mesh.normals.push_back(scale.cwiseInverse().cwiseProduct(Vec3(n.x, n.y, n.z)).normalized());
+    }
+    for (unsigned f = 0; f < part.mNumFaces; ++f) {
+      const aiFace& face = part.mFaces[f];
+      if (face.mNumIndices != 3) continue;
+      for (unsigned i = 0; i < 3; ++i) mesh.triangles.push_back(first + face.mIndices[i]);
+    }
+  }
+  if (mesh.triangles.empty()) return std::nullopt;
+  return mesh;
+}
+
+std::optional<MeshBounds> CalcMeshBounds(const std::filesystem::path& file, const Vec3& scale) {
+  const std::optional<TriangleMesh> mesh = LoadMesh(file, scale);
+  if (!mesh) return std::nullopt;
+  MeshBounds bounds{mesh->points.front(), mesh->points.front()};
+  for (const Vec3& p : mesh->points) {
+    bounds.low = bounds.low.cwiseMin(p);
+    bounds.high = bounds.high.cwiseMax(p);
+  }
+  return bounds;
+}
+
+std::filesystem::path FindMesh(const std::string& name, const std::filesystem::path& urdf) {
+  namespace fs = std::filesystem;
+  constexpr std::string_view kFile = "file://", kPackage = "package://";
+  const fs::path folder = fs::absolute(urdf).parent_path();
+  if (name.starts_with(kFile)) return name.substr(kFile.size());
+  if (!name.starts_with(kPackage)) return folder / name;
+  const fs::path path = name.substr(kPackage.size());
+  const fs::path package = *path.begin(), inside = path.lexically_relative(package);
+  for (fs::path above = folder; above != above.root_path(); above = above.parent_path()) {
+    for (const fs::path& candidate : {above / path, above / inside}) {
+      if (fs::exists(candidate)) return candidate;
+    }
+  }
+  return folder / inside;
+}
+
+}  // namespace scoria::core

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/math/types.h"
+
+namespace scoria::core {
+
+/// Triangles of a mesh file, in the frame of the link that names it.
+struct TriangleMesh {
+  std::vector<Vec3> points, normals;     // m; one normal per point
+  std::vector<std::uint32_t> triangles;  // three indices each
+};
+
+/// Reads DAE, STL or OBJ. @returns nothing if the file cannot be read or holds no triangle.
+[[nodiscard]] std::optional<TriangleMesh> LoadMesh(const std::filesystem::path& file,
+                                                   const Vec3& scale);
+
+struct MeshBounds {
+  Vec3 low, high;
+};
+[[nodiscard]] std::optional<MeshBounds> CalcMeshBounds(const std::filesystem::path& file,
+                                                       const Vec3& scale);
+
+/// The file that a URDF means: relative to the URDF, file://PATH, or package://PACKAGE/PATH, whose
+/// package is looked for in the folders above the URDF, by name or as the folder itself.
+[[nodiscard]] std::filesystem::path FindMesh(const std::string& name,
+                                             const std::filesystem::path& urdf);
+
+}  // namespace scoria::core
