@@ -78,7 +78,8 @@ Cell PoolCell(const CampaignResults& results, const std::string& arm,
   cell.arm = arm;
   cell.point = point;
   long falls = 0;
-  double metres = 0.0, work_J = 0.0, mech_abs = 0.0, mech_pos = 0.0, electrical = 0.0;
+  double metres = 0.0, work_J = 0.0, mech_abs = 0.0, mech_pos = 0.0, electrical = 0.0,
+         battery = 0.0;
   TrackingErrors& t = cell.tracking;
   int counted = 0;
   for (const EpisodeRecord& e : results.episodes) {
@@ -95,6 +96,13 @@ Cell PoolCell(const CampaignResults& results, const std::string& arm,
     mech_abs += m.energy.mech_abs_J;
     mech_pos += m.energy.mech_pos_J;
     electrical += m.energy.electrical_J;
+    battery += m.energy.battery_J;
+    cell.budget.motor_J += m.budget.motor_J;
+    cell.budget.joint_J += m.budget.joint_J;
+    cell.budget.contact_J += m.budget.contact_J;
+    cell.budget.external_J += m.budget.external_J;
+    cell.budget.stored_J += m.budget.stored_J;
+    cell.budget.error_J += m.budget.error_J;
     const double w = m.tracking.samples_s;
     t.samples_s += w;
     const auto add = [w](double& sum, double rmse) { sum += w * rmse * rmse; };
@@ -113,6 +121,7 @@ Cell PoolCell(const CampaignResults& results, const std::string& arm,
     cell.cot_mech_abs = mech_abs / work_J;
     cell.cot_mech_pos = mech_pos / work_J;
     cell.cot_electrical = electrical / work_J;
+    cell.cot_battery = battery / work_J;
   }
   if (t.samples_s > 0.0) {
     for (double* sum :

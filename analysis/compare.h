@@ -15,9 +15,11 @@ struct Cell {
   std::vector<std::string> point;
   int episodes = 0, broken = 0;  // broken: crashed, missing or not finite
   int stuck = 0;
-  RateEstimate falls;                                                   // per metre
-  double cot_mech_abs = 0.0, cot_mech_pos = 0.0, cot_electrical = 0.0;  // pooled: energy over m g d
-  TrackingErrors tracking;  // root of the mean squares, weighted by time
+  RateEstimate falls;  // per metre
+  double cot_mech_abs = 0.0, cot_mech_pos = 0.0, cot_electrical = 0.0,
+         cot_battery = 0.0;  // pooled: energy over m g d
+  EnergyBudget budget;       // summed
+  TrackingErrors tracking;   // root of the mean squares, weighted by time
   double mpc_median_s = 0.0, mpc_p99_s = 0.0, wbc_median_s = 0.0,
          wbc_p99_s = 0.0;  // mean median, worst p99
   double real_time_factor = 0.0;

@@ -55,8 +55,10 @@ bool SameCommand(const core::LogRow& a, const core::LogRow& b) {
 }  // namespace
 
 MetricsAccumulator::Mark MetricsAccumulator::MarkOf(const core::LogRow& row) {
-  return {
-      row.time_s, row.p_WB_m[0], row.p_WB_m[1], {row.mech_abs_J, row.mech_pos_J, row.electrical_J}};
+  return {row.time_s,
+          row.p_WB_m[0],
+          row.p_WB_m[1],
+          {row.mech_abs_J, row.mech_pos_J, row.electrical_J, row.battery_J}};
 }
 
 void MetricsAccumulator::StartStretch(const core::LogRow& row) {
@@ -85,7 +87,25 @@ void MetricsAccumulator::EndStretch() {
       std::hypot(previous_.p_WB_m[0] - chord_.x_m, previous_.p_WB_m[1] - chord_.y_m);
 }
 
+/// Adds what the ledger says at the end of a stretch between placements.
+void MetricsAccumulator::CloseBudget() {
+  if (!has_rows_) return;
+  EnergyBudget& b = metrics_.budget;
+  const double stored_J = last_.kinetic_J + last_.potential_J - last_.initial_J;
+  const double works_J =
+      last_.work_motor_J + last_.work_joint_J + last_.work_contact_J + last_.work_external_J;
+  b.motor_J += last_.work_motor_J;
+  b.joint_J += last_.work_joint_J;
+  b.contact_J += last_.work_contact_J;
+  b.external_J += last_.work_external_J;
+  b.stored_J += stored_J;
+  b.error_J += std::abs(stored_J - works_J);
+}
+
 void MetricsAccumulator::AddRow(const core::LogRow& row, const core::SolveTimes& times) {
+  if (has_rows_ && row.segment != last_.segment) CloseBudget();
+  last_ = row;
+  has_rows_ = true;
   metrics_.duration_s = row.time_s;
   metrics_.mass_kg = row.total_mass_kg;
   if (times.mpc_s > 0.0) mpc_s_.push_back(times.mpc_s);
@@ -110,6 +130,7 @@ void MetricsAccumulator::AddWalking(const core::LogRow& row) {
   metrics_.energy.mech_abs_J += row.mech_abs_J - previous_.mech_abs_J;
   metrics_.energy.mech_pos_J += row.mech_pos_J - previous_.mech_pos_J;
   metrics_.energy.electrical_J += row.electrical_J - previous_.electrical_J;
+  metrics_.energy.battery_J += row.battery_J - previous_.battery_J;
   if (row.time_s - chord_.time_s < kChord_s - 1e-9) return;
   const double chord_m = std::hypot(row.p_WB_m[0] - chord_.x_m, row.p_WB_m[1] - chord_.y_m);
   metrics_.distance_m += chord_m;
@@ -190,6 +211,7 @@ void MetricsAccumulator::AddTracking(const core::LogRow& row) {
 
 EpisodeMetrics MetricsAccumulator::Finish() {
   EndStretch();
+  CloseBudget();
   EpisodeMetrics m = metrics_;
   const double work_J = m.mass_kg * gravity_mps2_ * m.distance_m;
   constexpr double kLeastWay_m = 1.0;  // standing and turning in place have no cost of transport
@@ -197,6 +219,7 @@ EpisodeMetrics MetricsAccumulator::Finish() {
     m.cot_mech_abs = m.energy.mech_abs_J / work_J;
     m.cot_mech_pos = m.energy.mech_pos_J / work_J;
     m.cot_electrical = m.energy.electrical_J / work_J;
+    m.cot_battery = m.energy.battery_J / work_J;
   }
   TrackingErrors& t = m.tracking;
   if (rows_ > 0) {
@@ -216,7 +239,9 @@ EpisodeMetrics MetricsAccumulator::Finish() {
   return m;
 }
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Energy, mech_abs_J, mech_pos_J, electrical_J)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Energy, mech_abs_J, mech_pos_J, electrical_J, battery_J)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(EnergyBudget, motor_J, joint_J, contact_J, external_J, stored_J,
+                                   error_J)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SpeedWindow, v_mps, command_mps, cot_mech_abs, cot_mech_pos,
                                    cot_electrical)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TrackingErrors, samples_s, velocity_rmse_mps, velocity_x_mps,
@@ -235,6 +260,8 @@ void to_json(nlohmann::json& j, const EpisodeMetrics& m) {
        {"cot_mech_abs", m.cot_mech_abs},
        {"cot_mech_pos", m.cot_mech_pos},
        {"cot_electrical", m.cot_electrical},
+       {"cot_battery", m.cot_battery},
+       {"budget", m.budget},
        {"windows", m.windows},
        {"tracking", m.tracking},
        {"mpc", m.mpc},
@@ -252,6 +279,8 @@ void from_json(const nlohmann::json& j, EpisodeMetrics& m) {
   j.at("cot_mech_abs").get_to(m.cot_mech_abs);
   j.at("cot_mech_pos").get_to(m.cot_mech_pos);
   j.at("cot_electrical").get_to(m.cot_electrical);
+  j.at("cot_battery").get_to(m.cot_battery);
+  j.at("budget").get_to(m.budget);
   j.at("windows").get_to(m.windows);
   j.at("tracking").get_to(m.tracking);
   j.at("mpc").get_to(m.mpc);

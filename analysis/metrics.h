@@ -12,7 +12,14 @@ namespace scoria::analysis {
 
 /// Energy drawn over a stretch of walking.
 struct Energy {
-  double mech_abs_J = 0.0, mech_pos_J = 0.0, electrical_J = 0.0;
+  double mech_abs_J = 0.0, mech_pos_J = 0.0, electrical_J = 0.0, battery_J = 0.0;
+};
+
+/// Where the motors' net work went over the whole episode, summed over the stretches between
+/// placements: motor + external + joint + contact = stored + error, losses being negative works.
+struct EnergyBudget {
+  double motor_J = 0.0, joint_J = 0.0, contact_J = 0.0, external_J = 0.0, stored_J = 0.0;
+  double error_J = 0.0;  // sum of magnitudes: what the integrator made or lost
 };
 
 /// Cost of transport of one steady stretch: energy over m g d.
@@ -51,7 +58,8 @@ struct EpisodeMetrics {
   double distance_m = 0.0;  // half-second chords of the trunk's path, placements excluded
   double mass_kg = 0.0;
   Energy energy;  // while walking
-  double cot_mech_abs = 0.0, cot_mech_pos = 0.0, cot_electrical = 0.0;
+  EnergyBudget budget;
+  double cot_mech_abs = 0.0, cot_mech_pos = 0.0, cot_electrical = 0.0, cot_battery = 0.0;
   std::vector<SpeedWindow> windows;
   TrackingErrors tracking;
   TimeQuantiles mpc, wbc;
@@ -81,6 +89,7 @@ class MetricsAccumulator {
   void StartStretch(const core::LogRow& row);
   void StartSteady(const core::LogRow& row);
   void EndStretch();
+  void CloseBudget();
 
   double gravity_mps2_;
   EpisodeMetrics metrics_;
@@ -98,6 +107,8 @@ class MetricsAccumulator {
   double sum_velocity_ = 0.0, sum_height_ = 0.0, sum_roll_ = 0.0, sum_pitch_ = 0.0;
   long rows_ = 0, stride_rows_ = 0;
   std::vector<double> mpc_s_, wbc_s_;
+  core::LogRow last_;  // of any kind
+  bool has_rows_ = false;
 };
 
 void to_json(nlohmann::json& j, const EpisodeMetrics& m);

@@ -132,10 +132,10 @@ void AddCells(const CampaignResults& results, const std::vector<Cell>& cells, Ht
   page.Heading("Numbers");
   std::vector<std::string> header;
   for (const Axis& axis : results.axes) header.push_back(axis.label);
-  for (const char* name :
-       {"arm", "metres", "falls", "stuck", "metres per fall", "CoT mech_abs", "CoT mech_pos",
-        "CoT electrical", "velocity RMSE [m/s]", "height RMSE [mm]", "roll RMSE [deg]",
-        "pitch RMSE [deg]", "MPC median / p99 [µs]", "WBC median / p99 [µs]", "real-time factor"}) {
+  for (const char* name : {"arm", "metres", "falls", "stuck", "metres per fall", "CoT mech_abs",
+                           "CoT mech_pos", "CoT electrical", "CoT battery", "velocity RMSE [m/s]",
+                           "height RMSE [mm]", "roll RMSE [deg]", "pitch RMSE [deg]",
+                           "MPC median / p99 [µs]", "WBC median / p99 [µs]", "real-time factor"}) {
     header.emplace_back(name);
   }
   std::vector<std::vector<std::string>> rows;
@@ -149,6 +149,7 @@ void AddCells(const CampaignResults& results, const std::vector<Cell>& cells, Ht
     row.push_back(Value(c.cot_mech_abs, "{:.2f}"));
     row.push_back(Value(c.cot_mech_pos, "{:.2f}"));
     row.push_back(Value(c.cot_electrical, "{:.2f}"));
+    row.push_back(Value(c.cot_battery, "{:.2f}"));
     row.push_back(Value(c.tracking.velocity_rmse_mps, "{:.3f}"));
     row.push_back(Value(c.tracking.height_rmse_m * 1e3, "{:.1f}"));
     row.push_back(Value(c.tracking.roll_rmse_rad * kDegrees, "{:.2f}"));
@@ -159,6 +160,33 @@ void AddCells(const CampaignResults& results, const std::vector<Cell>& cells, Ht
     rows.push_back(std::move(row));
   }
   page.Table(header, rows);
+}
+
+/// Where the motors' work went, per arm.
+void AddEnergy(const CampaignResults& results, const std::vector<Cell>& cells, HtmlPage& page) {
+  std::vector<std::vector<std::string>> rows;
+  for (const Cell& c : cells) {
+    const EnergyBudget& b = c.budget;
+    if (b.motor_J == 0.0) continue;
+    std::vector<std::string> row = c.point;
+    row.push_back(c.arm);
+    for (const double joules : {b.motor_J, b.external_J, b.joint_J, b.contact_J, b.stored_J})
+      row.push_back(fmt::format("{:.0f}", joules));
+    row.push_back(fmt::format("{:.2f}", 100.0 * b.error_J / std::abs(b.motor_J)));
+    rows.push_back(std::move(row));
+  }
+  if (rows.empty()) return;
+  std::vector<std::string> header;
+  for (const Axis& axis : results.axes) header.push_back(axis.label);
+  for (const char* name : {"arm", "motors [J]", "outside [J]", "joints [J]", "ground [J]",
+                           "stored [J]", "unexplained [% of motors]"}) {
+    header.emplace_back(name);
+  }
+  page.Heading("Energy ledger");
+  page.Table(header, rows);
+  page.Note(
+      "Net mechanical work on the robot; losses are negative. Stored is the change of kinetic and "
+      "potential energy. What the works do not explain of it is the integrator's error.");
 }
 
 /// Range over the episodes of one number of the ground.
@@ -259,7 +287,8 @@ void WriteTables(const CampaignResults& results, const std::vector<Cell>& cells,
   std::string csv = "id,arm";
   for (const Axis& axis : results.axes) csv += "," + axis.key;
   csv +=
-      ",seed,end,distance_m,falls,stuck,cot_mech_abs,cot_mech_pos,cot_electrical,velocity_rmse_mps,"
+      ",seed,end,distance_m,falls,stuck,cot_mech_abs,cot_mech_pos,cot_electrical,cot_battery,"
+      "velocity_rmse_mps,"
       "height_rmse_m,"
       "roll_rmse_rad,pitch_rmse_rad,mpc_median_s,mpc_p99_s,wbc_median_s,wbc_p99_s,real_time_"
       "factor\n";
@@ -267,11 +296,12 @@ void WriteTables(const CampaignResults& results, const std::vector<Cell>& cells,
     const EpisodeMetrics& m = e.metrics;
     csv += Quoted(e.id) + "," + Quoted(e.arm);
     for (const std::string& value : e.point) csv += "," + Quoted(value);
-    csv += fmt::format(",{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", e.seed, e.end,
-                       m.distance_m, e.falls, e.stuck, m.cot_mech_abs, m.cot_mech_pos,
-                       m.cot_electrical, m.tracking.velocity_rmse_mps, m.tracking.height_rmse_m,
-                       m.tracking.roll_rmse_rad, m.tracking.pitch_rmse_rad, m.mpc.median_s,
-                       m.mpc.p99_s, m.wbc.median_s, m.wbc.p99_s, e.real_time_factor);
+    csv +=
+        fmt::format(",{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", e.seed, e.end,
+                    m.distance_m, e.falls, e.stuck, m.cot_mech_abs, m.cot_mech_pos,
+                    m.cot_electrical, m.cot_battery, m.tracking.velocity_rmse_mps,
+                    m.tracking.height_rmse_m, m.tracking.roll_rmse_rad, m.tracking.pitch_rmse_rad,
+                    m.mpc.median_s, m.mpc.p99_s, m.wbc.median_s, m.wbc.p99_s, e.real_time_factor);
   }
   core::WriteText(folder / "metrics.csv", csv);
 
@@ -289,6 +319,7 @@ void WriteTables(const CampaignResults& results, const std::vector<Cell>& cells,
                              {"cot_mech_abs", c.cot_mech_abs},
                              {"cot_mech_pos", c.cot_mech_pos},
                              {"cot_electrical", c.cot_electrical},
+                             {"cot_battery", c.cot_battery},
                              {"stuck", c.stuck}});
   }
   if (results.arms.size() > 1) {
@@ -327,6 +358,7 @@ fs::path WriteReport(const fs::path& folder) {
   page.Heading("Tracking and time");
   AddFigures(ArmFigures(results), figures, page);
   AddCells(results, cells, page);
+  AddEnergy(results, cells, page);
   AddTerrain(results, page);
   AddCourses(results, figures, page);
   AddVideos(folder, page);

@@ -2,6 +2,7 @@
 #include "app/commands.h"
 
 #include <atomic>
+#include <cmath>
 #include <csignal>
 #include <fstream>
 #include <memory>
@@ -51,8 +52,16 @@ void PrintSummary(const Scenario& scenario, const EpisodeReport& report,
       t.velocity_rmse_mps, t.height_rmse_m * 1e3, t.roll_rmse_rad * kDegrees,
       t.pitch_rmse_rad * kDegrees);
   if (t.drift_m > 0.0) fmt::print("  standing      drift {:.2f} mm\n", t.drift_m * 1e3);
-  fmt::print("  cost of transport  mech_abs {:.3f}, mech_pos {:.3f}, electrical {:.3f}\n",
-             m.cot_mech_abs, m.cot_mech_pos, m.cot_electrical);
+  fmt::print(
+      "  cost of transport  mech_abs {:.3f}, mech_pos {:.3f}, electrical {:.3f}, battery "
+      "{:.3f}\n",
+      m.cot_mech_abs, m.cot_mech_pos, m.cot_electrical, m.cot_battery);
+  const analysis::EnergyBudget& b = m.budget;
+  fmt::print(
+      "  energy ledger {:.0f} J motors, {:.0f} J joints, {:.0f} J ground, {:.0f} J stored, "
+      "{:.2f} % unexplained\n",
+      b.motor_J, b.joint_J, b.contact_J, b.stored_J,
+      b.motor_J != 0.0 ? 100.0 * b.error_J / std::abs(b.motor_J) : 0.0);
   fmt::print("  solve times   MPC {:.0f} us (p99 {:.0f}), WBC {:.1f} us (p99 {:.1f})\n",
              m.mpc.median_s * 1e6, m.mpc.p99_s * 1e6, m.wbc.median_s * 1e6, m.wbc.p99_s * 1e6);
   fmt::print("  real time     {:.1f}x (physics {:.1f} us, controller {:.1f} us per step)\n",

@@ -11,7 +11,6 @@ namespace {
 
 namespace msg = core::msg;
 
-constexpr double kNominalBattery_V = 28.8;  // Go2's pack, for the current that the power implies
 constexpr double kHeartbeat_s = 0.5;
 
 /// The topics, in the order of RecordedTopics().
@@ -160,14 +159,23 @@ core::LogRow MakeRow(const StepRecord& r) {
   row.f_F_W_N = Flatten(r.truth.f_F_W);
   row.trunk_force_N = r.truth.trunk_force_N;
   row.ground_z_m = r.ground_z_m;
-  row.total_mass_kg = r.total_mass_kg;
+  row.total_mass_kg = r.truth.mass_kg;
   row.mech_abs_J = r.energy.mech_abs_J;
   row.mech_pos_J = r.energy.mech_pos_J;
   row.electrical_J = r.energy.electrical_J;
+  row.battery_J = r.battery.delivered_J;
+  const sim::EnergyLedger& ledger = r.truth.energy;
+  row.work_motor_J = ledger.work.motor_J;
+  row.work_joint_J = ledger.work.joint_J;
+  row.work_contact_J = ledger.work.contact_J;
+  row.work_external_J = ledger.work.external_J;
+  row.kinetic_J = ledger.kinetic_J;
+  row.potential_J = ledger.potential_J;
+  row.initial_J = ledger.initial_J;
   row.cmd_v_x_mps = r.command.v_x_mps;
   row.cmd_v_y_mps = r.command.v_y_mps;
   row.cmd_w_z_radps = r.command.w_z_radps;
-  row.com_z_m = r.com_z_m;
+  row.com_z_m = r.truth.p_WC.z();
   const controller::ControlOutput& c = r.control;
   row.ref_rpy_rad = ToArray(c.reference.rpy_rad);
   row.ref_p_WC_m = ToArray(c.reference.p_WC);
@@ -270,8 +278,8 @@ void Recorder::Record(const StepRecord& r, const core::LogRow& row) {
     Write(topics[kSolveTime], t, mpc);
 
     msg::BatteryState battery;
-    battery.voltage = static_cast<float>(kNominalBattery_V);
-    battery.current = static_cast<float>(r.energy.electrical_W / kNominalBattery_V);
+    battery.voltage = static_cast<float>(r.battery.voltage_V);
+    battery.current = static_cast<float>(r.battery.current_A);
     Write(topics[kBattery], t, battery);
   }
   if (r.step % slow_every_ == 0) {

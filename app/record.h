@@ -46,10 +46,9 @@ struct StepRecord {
   const controller::ControlOutput& control;
   controller::ControllerCounters counters;
   const sim::EnergyMeter& energy;
+  const sim::BatteryState& battery;
   const LegArray<Vec3>& motor_tau_Nm;
   double ground_z_m;
-  double total_mass_kg;
-  double com_z_m;
   bool fallen;
   std::uint32_t segment;
 };

@@ -52,12 +52,11 @@ class Episode {
         sensors_(robot, gravity_W_, scenario.physics.step_s),
         operator_(scenario.operation, ground),
         fall_monitor_(scenario.fall, robot.config.nominal_height_m, scenario.physics.step_s),
-        model_(robot, scenario.gravity_mps2),
         wbc_every_(
             std::max(1, static_cast<int>(std::lround(
                             1.0 / (scenario.controller.rates.wbc_Hz * scenario.physics.step_s))))),
         give_truth_(controller::NeedsTruth(scenario.controller.estimator)),
-        push_start_s_(scenario.pushes.size()) {
+        pushes_(scenario.pushes.size()) {
     if (sinks.messages != nullptr) recorder_.emplace(*sinks.messages, scenario);
     Place(operator_.start_W(), operator_.start_yaw_rad(), scenario.start == StartPose::kStanding);
   }
@@ -127,8 +126,15 @@ class Episode {
     Vec3 f_W = Vec3::Zero();
     for (std::size_t i = 0; i < scenario_.pushes.size(); ++i) {
       const Push& push = scenario_.pushes[i];
-      if (!push_start_s_[i] && walking_s_ > push.at_s) push_start_s_[i] = time_s();
-      if (push_start_s_[i] && time_s() < *push_start_s_[i] + push.duration_s) f_W += push.force_W_N;
+      std::optional<ActivePush>& active = pushes_[i];
+      if (!active && walking_s_ > push.at_s) {
+        const double azimuth =
+            core::RpyFromRotation(world_.truth().state.R_WB).z() + push.azimuth_rad;
+        active = {time_s() + push.duration_s, push.impulse_Ns / push.duration_s *
+                                                  Vec3(std::cos(azimuth), std::sin(azimuth), 0.0)};
+        Announce("push", fmt::format("{} N s over {} s", push.impulse_Ns, push.duration_s));
+      }
+      if (active && time_s() < active->until_s) f_W += active->f_W;
     }
     return f_W;
   }
@@ -137,7 +143,6 @@ class Episode {
               const controller::ControlOutput& control) {
     if (step_ % wbc_every_ == 0 && (sinks_.on_row || recorder_)) {
       const sim::Truth& truth = world_.truth();
-      model_.Calc(truth.state, whole_body_);
       const double ground_z = ground_.HeightAt(truth.state.p_WB.x(), truth.state.p_WB.y());
       const StepRecord record{step_,
                               time_s(),
@@ -147,10 +152,9 @@ class Episode {
                               control,
                               counters_so_far(),
                               actuation_.energy(),
+                              actuation_.battery(),
                               actuation_.motor_tau_Nm(),
                               ground_z,
-                              whole_body_.mass_kg,
-                              whole_body_.p_WC.z(),
                               fallen_,
                               segment_};
       const core::LogRow row = MakeRow(record);
@@ -254,6 +258,7 @@ class Episode {
     }
     world_.Reset(state);
     sensors_.Reset();
+    actuation_.Reset();
     fall_monitor_.Reset();
     if (controller_) Accumulate(controller_->counters());
     controller_ = std::make_unique<controller::Controller>(
@@ -306,8 +311,6 @@ class Episode {
   sim::Sensors sensors_;
   Operator operator_;
   FallMonitor fall_monitor_;
-  core::WholeBodyModel model_;  // for the record: true COM
-  core::WholeBody whole_body_;
   int wbc_every_;
   bool give_truth_;
   std::optional<Recorder> recorder_;
@@ -318,7 +321,11 @@ class Episode {
   std::uint32_t segment_ = 0;
   double operating_s_ = 0.0, walking_s_ = 0.0, lying_s_ = 0.0, chord_s_ = 0.0;
   bool fallen_ = false;
-  std::vector<std::optional<double>> push_start_s_;
+  struct ActivePush {
+    double until_s;
+    Vec3 f_W;
+  };
+  std::vector<std::optional<ActivePush>> pushes_;  // those that have started
   std::optional<Vec2> chord_start_, last_place_;
 };
 

@@ -36,16 +36,18 @@ struct LogParams {
   }
 };
 
-/// A sideways or forward push on the trunk.
+/// A level push on the trunk's centre of mass, with constant force.
 struct Push {
   double at_s = 0.0, duration_s = 0.1;
-  Vec3 force_W_N = Vec3::Zero();
+  double impulse_Ns = 0.0;
+  double azimuth_rad = 0.0;
   template <class Archive>
   void Serialize(Archive& a) {
     a.Required("at_s", at_s, {.min = 0.0, .doc = "since the robot stands"});
     a.Field("duration_s", duration_s, {.min = 0.001, .max = 60.0});
-    a.Required("force_W_N", force_W_N,
-               {.doc = "x y z in the world, at the trunk's centre of mass"});
+    a.Required("impulse_Ns", impulse_Ns, {.min = 0.0, .max = 1000.0});
+    a.Field("azimuth_rad", azimuth_rad,
+            {.doc = "from the robot's heading when it starts: 0 forwards, pi/2 to the left"});
   }
 };
 

@@ -7,7 +7,6 @@
 
 #include "controller/estimation/state_estimator.h"
 #include "controller/gait/gait_sequencer.h"
-#include "core/robot/whole_body.h"
 #include "controller/mpc/convex_mpc.h"
 #include "controller/reference/reference_planner.h"
 #include "controller/safety/leg_state_machine.h"
@@ -16,6 +15,7 @@
 #include "controller/swing/swing_trajectory.h"
 #include "controller/wbc/tsid.h"
 #include "core/clock.h"
+#include "core/robot/whole_body.h"
 
 namespace scoria::controller {
 

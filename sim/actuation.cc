@@ -23,10 +23,26 @@ double Envelope(double tau, double qd, double effort, double no_load) noexcept {
 }  // namespace
 
 Actuation::Actuation(const core::RobotDescription& robot)
-    : robot_(robot), effort_Nm_(robot.EffortLimits()) {}
+    : robot_(robot),
+      effort_Nm_(robot.EffortLimits()),
+      battery_(robot.config.battery),
+      commands_(kLongestDelay) {}
 
-LegArray<Vec3> Actuation::Update(const JointCommand& command, const LegArray<Vec3>& q,
+/// The command of delay_s ago; the first one until then.
+const JointCommand& Actuation::Delayed(const JointCommand& command, double dt_s) noexcept {
+  const auto delay = static_cast<std::size_t>(std::lround(robot_.config.motors.delay_s / dt_s));
+  if (delay == 0) return command;
+  commands_[next_] = command;
+  const std::size_t age = std::min(delay, pending_);
+  const JointCommand& due = commands_[(next_ + kLongestDelay - age) % kLongestDelay];
+  next_ = (next_ + 1) % kLongestDelay;
+  pending_ = std::min(pending_ + 1, delay);
+  return due;
+}
+
+LegArray<Vec3> Actuation::Update(const JointCommand& given, const LegArray<Vec3>& q,
                                  const LegArray<Vec3>& qd, double dt_s) noexcept {
+  const JointCommand& command = Delayed(given, dt_s);
   const core::MotorParams& motors = robot_.config.motors;
   double electrical_W = motors.idle_W, absolute_W = 0.0, positive_W = 0.0;
   for (const Leg leg : kLegs) {
@@ -47,6 +63,7 @@ LegArray<Vec3> Actuation::Update(const JointCommand& command, const LegArray<Vec
   energy_.mech_pos_J += positive_W * dt_s;
   energy_.electrical_J += electrical_W * dt_s;
   energy_.electrical_W = electrical_W;
+  battery_.Draw(electrical_W, dt_s);
   return motor_tau_Nm_;
 }
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
 #include "core/robot/description.h"
 #include "core/robot/state.h"
+#include "sim/battery.h"
 
 namespace scoria::sim {
 
@@ -16,8 +19,8 @@ struct EnergyMeter {
   bool operator==(const EnergyMeter&) const = default;
 };
 
-/// Motors with gear: joint PD, torque-speed envelope, electrical power. Rotor inertia, damping and
-/// friction of the joints act inside the physics step (World).
+/// Motors with gear: command delay, joint PD, torque-speed envelope, electrical power, battery.
+/// Rotor inertia, damping and friction of the joints act inside the physics step (World).
 class Actuation {
  public:
   explicit Actuation(const core::RobotDescription& robot);
@@ -30,12 +33,22 @@ class Actuation {
   /// Motor torques of the last step, before friction.
   [[nodiscard]] const LegArray<Vec3>& motor_tau_Nm() const noexcept { return motor_tau_Nm_; }
   [[nodiscard]] const EnergyMeter& energy() const noexcept { return energy_; }
+  [[nodiscard]] const BatteryState& battery() const noexcept { return battery_.state(); }
+
+  /// Forgets commands that are still on their way, after the robot was placed.
+  void Reset() noexcept { pending_ = 0; }
 
  private:
+  [[nodiscard]] const JointCommand& Delayed(const JointCommand& command, double dt_s) noexcept;
+
   const core::RobotDescription& robot_;
   LegArray<Vec3> effort_Nm_;
   LegArray<Vec3> motor_tau_Nm_ = ZeroPerLeg();
   EnergyMeter energy_;
+  Battery battery_;
+  static constexpr std::size_t kLongestDelay = 512;  // steps
+  std::vector<JointCommand> commands_;               // ring of those on their way
+  std::size_t pending_ = 0, next_ = 0;
 };
 
 }  // namespace scoria::sim

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "core/robot/whole_body.h"
 #include "core/config/archive.h"
 #include "core/robot/plans.h"
+#include "core/robot/whole_body.h"
 
 namespace scoria::controller {
 
 struct ReferenceParams {
   double max_yaw_lead_rad = 0.3;
   double max_position_lead_m = 0.10;
-  double tilt_share = 0.3;
+  double tilt_share = 0.6;
   double plane_slope_gain = 0.1;
   double plane_height_gain = 0.15;
   double max_acceleration_mps2 = 1.0;

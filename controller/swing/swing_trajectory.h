@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "core/robot/whole_body.h"
 #include "core/config/archive.h"
 #include "core/robot/plans.h"
+#include "core/robot/whole_body.h"
 
 namespace scoria::controller {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "core/robot/whole_body.h"
 #include "controller/qp/dual_active_set.h"
 #include "core/config/archive.h"
 #include "core/robot/plans.h"
+#include "core/robot/whole_body.h"
 
 namespace scoria::controller {
 

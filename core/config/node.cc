@@ -212,6 +212,21 @@ ConfigNode ParseConfig(const std::string& text, const std::string& name) {
   return node;
 }
 
+namespace {
+
+/// A map of item numbers, as the override "list.0.key=value" makes it.
+bool IsIndexMap(const ConfigNode& node) {
+  const auto is_index = [](const ConfigNode::Entry& entry) {
+    return !entry.key.empty() && entry.key.size() < 6 &&
+           std::all_of(entry.key.begin(), entry.key.end(),
+                       [](unsigned char c) { return std::isdigit(c) != 0; });
+  };
+  return node.kind == ConfigNode::Kind::kMap && !node.entries.empty() &&
+         std::all_of(node.entries.begin(), node.entries.end(), is_index);
+}
+
+}  // namespace
+
 void MergeConfig(ConfigNode& onto, const ConfigNode& over) {
   using Kind = ConfigNode::Kind;
   const ConfigNode* old_type = onto.Find("type");
@@ -221,6 +236,17 @@ void MergeConfig(ConfigNode& onto, const ConfigNode& over) {
   if (over.kind == Kind::kNull && onto.kind == Kind::kMap) {
     throw ConfigError(over.origin, "",
                       "an empty value cannot replace a section; leave the key out");
+  }
+  if (onto.kind == Kind::kSequence && IsIndexMap(over)) {
+    for (const ConfigNode::Entry& entry : over.entries) {
+      const std::size_t index = std::stoul(entry.key);
+      if (index >= onto.items.size()) {
+        throw ConfigError(entry.key_origin, entry.key,
+                          fmt::format("the list has {} items, counted from 0", onto.items.size()));
+      }
+      MergeConfig(onto.items[index], entry.value);
+    }
+    return;
   }
   if (onto.kind != Kind::kMap || over.kind != Kind::kMap || other_variant || over.has_base) {
     onto = over;

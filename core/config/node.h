@@ -58,7 +58,8 @@ struct ConfigNode::Entry {
 [[nodiscard]] ConfigNode ParseConfig(const std::string& text, const std::string& name);
 
 /// Deep merge: maps merge key by key, everything else is replaced. A map whose `type` changes is
-/// replaced whole, since the keys of one variant mean nothing to another.
+/// replaced whole, since the keys of one variant mean nothing to another. A map of item numbers
+/// merges into the items of a list.
 void MergeConfig(ConfigNode& onto, const ConfigNode& over);
 
 /// Applies one command-line override "a.b.c=value", the value in YAML.

@@ -23,7 +23,12 @@ struct LogRow {
   double trunk_force_N = 0.0;
   double ground_z_m = 0.0;  // under the trunk
   double total_mass_kg = 0.0;
-  double mech_abs_J = 0.0, mech_pos_J = 0.0, electrical_J = 0.0;  // since the start
+  double mech_abs_J = 0.0, mech_pos_J = 0.0, electrical_J = 0.0,
+         battery_J = 0.0;  // since the start
+
+  // Energy ledger since the last placement: works on the robot, and its energy now.
+  double work_motor_J = 0.0, work_joint_J = 0.0, work_contact_J = 0.0, work_external_J = 0.0;
+  double kinetic_J = 0.0, potential_J = 0.0, initial_J = 0.0;
 
   // What was asked for and decided.
   double cmd_v_x_mps = 0.0, cmd_v_y_mps = 0.0, cmd_w_z_radps = 0.0;
@@ -57,6 +62,14 @@ struct LogRow {
     a("mech_abs_J", mech_abs_J);
     a("mech_pos_J", mech_pos_J);
     a("electrical_J", electrical_J);
+    a("battery_J", battery_J);
+    a("work_motor_J", work_motor_J);
+    a("work_joint_J", work_joint_J);
+    a("work_contact_J", work_contact_J);
+    a("work_external_J", work_external_J);
+    a("kinetic_J", kinetic_J);
+    a("potential_J", potential_J);
+    a("initial_J", initial_J);
     a("cmd_v_x_mps", cmd_v_x_mps);
     a("cmd_v_y_mps", cmd_v_y_mps);
     a("cmd_w_z_radps", cmd_w_z_radps);

@@ -45,6 +45,7 @@ struct MotorParams {
   Vec3 friction_Nm = Vec3::Constant(0.2);
   Vec3 copper_loss_W_per_Nm2 = Vec3::Constant(0.5);
   double idle_W = 50.0;
+  double delay_s = 0.0;
   template <class Archive>
   void Serialize(Archive& a) {
     constexpr double kNone = 0.0;
@@ -54,6 +55,27 @@ struct MotorParams {
     a.Field("friction_Nm", friction_Nm, {.min = kNone, .max = 10.0, .doc = "Coulomb friction"});
     a.Field("copper_loss_W_per_Nm2", copper_loss_W_per_Nm2, {.min = kNone, .max = 100.0});
     a.Field("idle_W", idle_W, {.min = kNone, .max = 1000.0, .doc = "computer and drives"});
+    a.Field("delay_s", delay_s,
+            {.min = kNone, .max = 0.05, .doc = "from command to drive, whole physics steps"});
+  }
+};
+
+/// Battery: open-circuit voltage linear in charge, behind an inner resistance.
+struct BatteryParams {
+  double full_V = 33.6, empty_V = 24.0;
+  double capacity_Ah = 8.0;
+  double resistance_Ohm = 0.1;
+  double start_charge = 1.0;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Field("full_V", full_V, {.min = 1.0, .max = 1000.0, .doc = "open circuit, charged"});
+    a.Field("empty_V", empty_V, {.min = 0.5, .max = 1000.0, .doc = "open circuit, discharged"});
+    a.Field("capacity_Ah", capacity_Ah, {.min = 0.01, .max = 1000.0});
+    a.Field("resistance_Ohm", resistance_Ohm, {.min = 0.0, .max = 10.0});
+    a.Field("start_charge", start_charge, {.min = 0.0, .max = 1.0, .doc = "share of the capacity"});
+  }
+  [[nodiscard]] std::string Problem() const {
+    return empty_V <= full_V ? "" : "empty_V must not exceed full_V";
   }
 };
 
@@ -72,6 +94,7 @@ struct RobotConfig {
   double foot_radius_m = 0.0;
   bool has_foot_sensors = true;
   MotorParams motors;
+  BatteryParams battery;
   template <class Archive>
   void Serialize(Archive& a) {
     a.Required("name", name);
@@ -98,6 +121,7 @@ struct RobotConfig {
              .doc = "sphere about the foot link; 0: the link's own collision sphere"});
     a.Field("has_foot_sensors", has_foot_sensors);
     a.Field("motors", motors);
+    a.Field("battery", battery);
   }
 };
 
