@@ -53,6 +53,18 @@ TEST(Scenario, ErrorsNameTheOverrideAndTheRule) {
             "--set controler.gait=3: controler: unknown key (did you mean \"controller\"?)");
 }
 
+TEST(Scenario, OverridesReachTheItemsOfLists) {
+  const Scenario scenario = test::LoadScenario("push", {"pushes.0.impulse_Ns=30"});
+  EXPECT_EQ(scenario.pushes.at(0).impulse_Ns, 30.0);
+  EXPECT_EQ(scenario.pushes.at(0).at_s, 5.0);
+  try {
+    (void)test::LoadScenario("push", {"pushes.1.impulse_Ns=30"});
+    FAIL();
+  } catch (const core::ConfigError& e) {
+    EXPECT_STREQ(e.what(), "--set pushes.1.impulse_Ns=30: 1: the list has 1 items, counted from 0");
+  }
+}
+
 TEST(Docs, ConfigTableIsCurrent) {
   std::ifstream in(test::SourcePath("docs/CONFIG.md"));
   std::stringstream text;

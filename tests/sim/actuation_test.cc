@@ -52,5 +52,44 @@ TEST(Actuation, EnergyCountsWorkAndHeat) {
               m.idle_W + 8.0 + 4.0 * k + std::max(0.0, -12.0 + 9.0 * k), 1e-9);
 }
 
+TEST(Actuation, CommandsArriveAfterTheirDelay) {
+  core::RobotDescription robot = test::Go2();
+  robot.config.motors.delay_s = 0.003;
+  Actuation actuation(robot);
+  const auto torque_of = [&](double tau_Nm) {
+    JointCommand command;
+    command.tau_Nm[Leg::kFL].x() = tau_Nm;
+    return actuation.Update(command, ZeroPerLeg(), ZeroPerLeg(), 1e-3)[Leg::kFL].x();
+  };
+  std::vector<double> got;
+  for (const double tau : {1.0, 2.0, 3.0, 4.0, 5.0, 6.0}) got.push_back(torque_of(tau));
+  EXPECT_EQ(got, (std::vector<double>{1.0, 1.0, 1.0, 1.0, 2.0, 3.0}));
+  actuation.Reset();
+  EXPECT_EQ(torque_of(9.0), 9.0);  // what was on its way is forgotten
+}
+
+// P = (V_open − I R) I; a full discharge delivers the mean open-circuit voltage times the charge.
+TEST(Battery, CurrentVoltageAndChargeFollowTheCircuit) {
+  const core::BatteryParams params{33.6, 24.0, 8.0, 0.1, 1.0};
+  Battery battery(params);
+  battery.Draw(200.0, 1e-3);
+  const BatteryState first = battery.state();
+  EXPECT_NEAR(first.voltage_V * first.current_A, 200.0, 1e-9);
+  EXPECT_NEAR(first.voltage_V, 33.6 - 0.1 * first.current_A, 1e-9);
+  double hours = 0.0;
+  for (; battery.state().charge > 1e-3 && hours < 3.0; hours += 1.0 / 3600.0)
+    battery.Draw(200.0, 1.0);
+  EXPECT_NEAR(battery.state().delivered_J, 0.5 * (33.6 + 24.0) * 8.0 * 3600.0, 2e3);
+  EXPECT_NEAR(hours, 28.8 * 8.0 / 200.0, 0.05);  // less the loss in the cells
+  EXPECT_LT(battery.state().voltage_V, 24.0);
+}
+
+TEST(Battery, OverloadDrawsTheCurrentOfGreatestPower) {
+  Battery battery({33.6, 24.0, 8.0, 0.1, 1.0});
+  battery.Draw(1e5, 1e-3);
+  EXPECT_NEAR(battery.state().current_A, 33.6 / 0.2, 1e-9);
+  EXPECT_NEAR(battery.state().voltage_V, 16.8, 1e-9);
+}
+
 }  // namespace
 }  // namespace scoria::sim
