@@ -17,22 +17,6 @@ constexpr double kSettle_s = 3.0;  // after the command changed
 constexpr double kSameCommand_mps = 0.05, kSameShare = 0.15;
 constexpr double kStride_s = 0.5;  // averaging time where the log names no period
 
-TimeQuantiles Quantiles(std::vector<double>& samples) {
-  TimeQuantiles q;
-  q.count = static_cast<int>(samples.size());
-  if (samples.empty()) return q;
-  const auto at = [&](double share) {
-    const auto rank = samples.begin() +
-                      static_cast<std::ptrdiff_t>(share * static_cast<double>(samples.size() - 1));
-    std::nth_element(samples.begin(), rank, samples.end());
-    return *rank;
-  };
-  q.median_s = at(0.5);
-  q.p99_s = at(0.99);
-  q.max_s = at(1.0);
-  return q;
-}
-
 double CommandSpeed(const core::LogRow& row) {
   return std::hypot(row.cmd_v_x_mps, row.cmd_v_y_mps);
 }
@@ -53,6 +37,29 @@ bool SameCommand(const core::LogRow& a, const core::LogRow& b) {
 }
 
 }  // namespace
+
+void TimeHistogram::Add(double time_s) {
+  const double bin = std::log(time_s / kShortest_s) / kWidth;
+  ++counts_[static_cast<std::size_t>(std::clamp(bin, 0.0, kBins - 1.0))];
+  longest_s_ = std::max(longest_s_, time_s);
+  ++count_;
+}
+
+TimeQuantiles TimeHistogram::Summarise() const {
+  TimeQuantiles q{0.0, 0.0, longest_s_, static_cast<int>(count_)};
+  if (count_ == 0) return q;
+  const auto at = [&](double share) {
+    const auto rank = static_cast<long>(share * static_cast<double>(count_ - 1));
+    long below = 0;
+    std::size_t bin = 0;
+    while (below + counts_[bin] <= rank) below += counts_[bin++];
+    const double middle_s = kShortest_s * std::exp((static_cast<double>(bin) + 0.5) * kWidth);
+    return std::min(middle_s, longest_s_);
+  };
+  q.median_s = at(0.5);
+  q.p99_s = at(0.99);
+  return q;
+}
 
 MetricsAccumulator::Mark MetricsAccumulator::MarkOf(const core::LogRow& row) {
   return {row.time_s,
@@ -108,8 +115,8 @@ void MetricsAccumulator::AddRow(const core::LogRow& row, const core::SolveTimes&
   has_rows_ = true;
   metrics_.duration_s = row.time_s;
   metrics_.mass_kg = row.total_mass_kg;
-  if (times.mpc_s > 0.0) mpc_s_.push_back(times.mpc_s);
-  if (times.wbc_s > 0.0) wbc_s_.push_back(times.wbc_s);
+  if (times.mpc_s > 0.0) mpc_times_.Add(times.mpc_s);
+  if (times.wbc_s > 0.0) wbc_times_.Add(times.wbc_s);
   if (!row.operating || row.fallen || row.segment != segment_) EndStretch();
   if (!row.operating || row.fallen) return;
   for (std::size_t leg = 0; leg < 4; ++leg) {
@@ -234,8 +241,8 @@ EpisodeMetrics MetricsAccumulator::Finish() {
   }
   if (stride_rows_ > 0)
     t.velocity_rmse_mps = std::sqrt(sum_velocity_ / static_cast<double>(stride_rows_));
-  m.mpc = Quantiles(mpc_s_);
-  m.wbc = Quantiles(wbc_s_);
+  m.mpc = mpc_times_.Summarise();
+  m.wbc = wbc_times_.Summarise();
   return m;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,21 @@ struct TrackingErrors {
 struct TimeQuantiles {
   double median_s = 0.0, p99_s = 0.0, max_s = 0.0;
   int count = 0;
+};
+
+/// Counts durations in bins one per cent wide, so that a day of walking takes no more room than a
+/// minute.
+class TimeHistogram {
+ public:
+  void Add(double time_s);
+  [[nodiscard]] TimeQuantiles Summarise() const;
+
+ private:
+  static constexpr double kShortest_s = 1e-8, kWidth = 0.01;  // of the logarithm
+  static constexpr std::size_t kBins = 2303;                  // up to 100 s
+  std::array<long, kBins> counts_{};
+  double longest_s_ = 0.0;
+  long count_ = 0;
 };
 
 /// A fall and when it happened.
@@ -106,7 +122,7 @@ class MetricsAccumulator {
   std::size_t stride_head_ = 0;
   double sum_velocity_ = 0.0, sum_height_ = 0.0, sum_roll_ = 0.0, sum_pitch_ = 0.0;
   long rows_ = 0, stride_rows_ = 0;
-  std::vector<double> mpc_s_, wbc_s_;
+  TimeHistogram mpc_times_, wbc_times_;
   core::LogRow last_;  // of any kind
   bool has_rows_ = false;
 };

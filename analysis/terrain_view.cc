@@ -154,21 +154,25 @@ terrains::TerrainStatistics StatisticsFromJson(const nlohmann::json& json) {
   return s;
 }
 
+nlohmann::json TerrainJson(const Heightfield& ground, const terrains::TerrainParams& params,
+                           const terrains::TerrainStatistics& statistics) {
+  nlohmann::json json = ToJson(statistics);
+  json["name"] = params.name;
+  json["deviogram"] = nlohmann::json::array();
+  for (const terrains::Deviation& d : terrains::MeasureDeviogram(ground, params)) {
+    json["deviogram"].push_back(
+        {{"lag_m", d.lag_m}, {"measured_m", d.measured_m}, {"target_m", d.target_m}});
+  }
+  return json;
+}
+
 void WriteTerrainView(const Heightfield& ground, const terrains::TerrainParams& params,
                       const terrains::TerrainStatistics& statistics,
                       const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   WriteRelief(ground, params, statistics, folder / "relief.png");
-  const std::vector<terrains::Deviation> deviogram = terrains::MeasureDeviogram(ground, params);
-  DeviogramFigure(deviogram, Escape(params.name)).Render(folder);
-  nlohmann::json json = ToJson(statistics);
-  json["name"] = params.name;
-  json["deviogram"] = nlohmann::json::array();
-  for (const terrains::Deviation& d : deviogram) {
-    json["deviogram"].push_back(
-        {{"lag_m", d.lag_m}, {"measured_m", d.measured_m}, {"target_m", d.target_m}});
-  }
-  core::WriteText(folder / "terrain.json", json.dump(2) + "\n");
+  DeviogramFigure(terrains::MeasureDeviogram(ground, params), Escape(params.name)).Render(folder);
+  core::WriteText(folder / "terrain.json", TerrainJson(ground, params, statistics).dump(2) + "\n");
 }
 
 }  // namespace scoria::analysis

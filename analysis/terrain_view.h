@@ -14,6 +14,11 @@ namespace scoria::analysis {
 /// Errors: nlohmann::json::exception on a missing key.
 [[nodiscard]] terrains::TerrainStatistics StatisticsFromJson(const nlohmann::json& json);
 
+/// Name, statistics and deviogram of a ground.
+[[nodiscard]] nlohmann::json TerrainJson(const terrains::Heightfield& ground,
+                                         const terrains::TerrainParams& params,
+                                         const terrains::TerrainStatistics& statistics);
+
 /// A ground as people look at it: relief.png (shaded relief under a material overlay, the whole
 /// tile and a close-up), deviogram.{svg,png,pdf,gp} against its target, terrain.json with the
 /// numbers. Errors: std::runtime_error (files, gnuplot).

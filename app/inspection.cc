@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "analysis/terrain_view.h"
 #include "controller/stand_up.h"
@@ -100,7 +101,7 @@ terrains::TerrainParams LoadTerrain(const std::string& name, const std::vector<s
 }
 
 void PrintTerrain(const terrains::TerrainParams& params, const terrains::TerrainStatistics& s,
-                  std::size_t rocks, const std::string& folder) {
+                  std::size_t rocks) {
   constexpr double kDegrees = 180.0 / std::numbers::pi;
   const terrains::RoughnessParams& asked = params.roughness;
   fmt::print("{}: {:.1f} m of ground, {:.3f} m grid\n", params.name, params.size_m,
@@ -121,7 +122,6 @@ void PrintTerrain(const terrains::TerrainParams& params, const terrains::Terrain
   }
   for (const auto& [name, fraction] : s.materials)
     fmt::print("  {:22} {:.1f} %\n", name, 100.0 * fraction);
-  fmt::print("  files                  {}/relief.png, deviogram.png, terrain.json\n", folder);
 }
 
 void AddTerrain(CLI::App& app) {
@@ -129,7 +129,7 @@ void AddTerrain(CLI::App& app) {
     std::string name, out;
     std::vector<std::string> set;
     std::uint64_t seed = 1;
-    bool json = false;
+    bool json = false, no_pictures = false;
   };
   auto o = std::make_shared<Options>();
   CLI::App* terrain =
@@ -138,7 +138,8 @@ void AddTerrain(CLI::App& app) {
   terrain->add_option("--seed", o->seed, "master seed (default 1)");
   terrain->add_option("--set", o->set, "override a key, as roughness_scale=2");
   terrain->add_option("--out", o->out, "folder for the pictures (default out/terrain/NAME)");
-  terrain->add_flag("--json", o->json, "print terrain.json instead of a summary");
+  terrain->add_flag("--json", o->json, "print the numbers as JSON instead of a summary");
+  terrain->add_flag("--no-pictures", o->no_pictures, "print only, write no files");
   terrain->callback([o] {
     const terrains::TerrainParams params = LoadTerrain(o->name, o->set);
     const terrains::Heightfield ground = terrains::GenerateTerrain(params, o->seed, 0);
@@ -146,16 +147,20 @@ void AddTerrain(CLI::App& app) {
     const std::filesystem::path folder = o->out.empty()
                                              ? std::filesystem::path("out/terrain") / params.name
                                              : std::filesystem::path(o->out);
-    analysis::WriteTerrainView(ground, params, statistics, folder);
+    if (!o->no_pictures) analysis::WriteTerrainView(ground, params, statistics, folder);
     if (o->json) {
-      fmt::print("{}", core::ReadText(folder / "terrain.json"));
+      fmt::print("{}\n", analysis::TerrainJson(ground, params, statistics).dump(2));
       return;
     }
     const double edge_m = ground.nodes() * ground.resolution_m();
     const std::size_t rocks =
         terrains::DrawRocks(params.rocks, edge_m, core::Rng(o->seed, 0, core::Stream::kRocks))
             .size();
-    PrintTerrain(params, statistics, rocks, folder.string());
+    PrintTerrain(params, statistics, rocks);
+    if (!o->no_pictures) {
+      fmt::print("  files                  {}/relief.png, deviogram.png, terrain.json\n",
+                 folder.string());
+    }
   });
 }
 
