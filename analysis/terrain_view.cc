@@ -2,7 +2,6 @@
 #include "analysis/terrain_view.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -12,45 +11,28 @@
 #include <opencv2/imgproc.hpp>
 
 #include "analysis/gnuplot.h"
+#include "analysis/ground_colour.h"
 #include "core/files.h"
 
 namespace scoria::analysis {
 namespace {
 
-using terrains::Cover;
 using terrains::Heightfield;
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr int kPanel_px = 800, kMargin_px = 24, kCaption_px = 64, kLegend_px = 56;
 
-/// Blue, green, red of the substrate and of covers in their order; rocks are the darkest.
-cv::Vec3d MaterialColour(const Heightfield& ground, std::size_t index) {
-  static const std::array<cv::Vec3d, 6> kColours = {
-      cv::Vec3d(150, 165, 180), cv::Vec3d(60, 130, 205),  cv::Vec3d(110, 200, 225),
-      cv::Vec3d(150, 170, 90),  cv::Vec3d(170, 120, 160), cv::Vec3d(120, 190, 150)};
-  if (index > 0 && ground.covers()[index - 1].material.name == "rock") return {70, 62, 58};
-  return kColours[index % kColours.size()];
-}
+cv::Vec3d ToPixel(const Vec3& rgb) { return 255.0 * cv::Vec3d(rgb.z(), rgb.y(), rgb.x()); }
 
-/// Colour of the ground at a place: materials mixed by their shares, lit from the north-west.
+/// Colour of the ground at a place, lit from the north-west.
 cv::Vec3b ColourAt(const Heightfield& ground, const Vec2& p_W) {
-  const double last = ground.nodes() - 1.0;
-  const auto node = [&](double coordinate_m) {
-    return static_cast<std::size_t>(std::lround(
-        std::clamp((coordinate_m + ground.half_size_m()) / ground.resolution_m(), 0.0, last)));
-  };
-  const std::size_t at = node(p_W.y()) * static_cast<std::size_t>(ground.nodes()) + node(p_W.x());
-  cv::Vec3d colour = MaterialColour(ground, 0);
-  for (std::size_t i = 0; i < ground.covers().size(); ++i) {
-    const double share = ground.covers()[i].share[at] / 255.0;
-    colour += share * (MaterialColour(ground, i + 1) - MaterialColour(ground, 0));
-  }
   const Vec2 g = ground.At(p_W.x(), p_W.y()).gradient;
   const Vec3 normal = Vec3(-g.x(), -g.y(), 1.0).normalized();
   const Vec3 light = Vec3(-1.0, 1.0, 1.2).normalized();
   const double shade = 0.25 + 1.05 * std::max(0.0, normal.dot(light));
+  const cv::Vec3d lit = shade * ToPixel(GroundColour(ground, p_W));
   cv::Vec3b out;
-  for (int c = 0; c < 3; ++c) out[c] = cv::saturate_cast<uchar>(shade * colour[c]);
+  for (int c = 0; c < 3; ++c) out[c] = cv::saturate_cast<uchar>(lit[c]);
   return out;
 }
 
@@ -82,7 +64,8 @@ void DrawLegend(cv::Mat& image, const Heightfield& ground,
   const int y = kCaption_px + kPanel_px + 34;
   for (std::size_t i = 0; i < statistics.materials.size(); ++i) {
     const auto& [name, fraction] = statistics.materials[i];
-    cv::rectangle(image, {x, y - 14, 18, 18}, cv::Scalar(MaterialColour(ground, i)), cv::FILLED);
+    cv::rectangle(image, {x, y - 14, 18, 18}, cv::Scalar(ToPixel(MaterialColour(ground, i))),
+                  cv::FILLED);
     const std::string text = fmt::format("{} {:.0f} %", name, 100.0 * fraction);
     Write(image, text, x + 26, y, 0.55);
     int baseline = 0;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "analysis/ground_colour.h"
+
 namespace scoria::analysis {
 namespace {
 
@@ -22,8 +24,8 @@ void AddLattice(MeshData& mesh, std::uint32_t first, std::uint32_t columns, std:
 
 }  // namespace
 
-void MeshData::AddVertex(const Vec3& p, const Vec3& n) {
-  for (const Vec3& v : {p, n}) {
+void MeshData::AddVertex(const Vec3& p, const Vec3& n, const Vec3& colour) {
+  for (const Vec3& v : {p, n, colour}) {
     for (int i = 0; i < 3; ++i) vertices.push_back(static_cast<float>(v[i]));
   }
 }
@@ -34,7 +36,8 @@ MeshData MakeUnitBox() {
     for (const double sign : {-1.0, 1.0}) {
       const Vec3 n = sign * Vec3::Unit(axis), u = Vec3::Unit((axis + 1) % 3),
                  v = Vec3::Unit((axis + 2) % 3);
-      const auto first = static_cast<std::uint32_t>(mesh.vertices.size() / 6);
+      const auto first =
+          static_cast<std::uint32_t>(mesh.vertices.size() / MeshData::kFloatsPerVertex);
       for (const double a : {-0.5, 0.5}) {
         for (const double b : {-0.5, 0.5}) mesh.AddVertex(0.5 * n + a * u + b * v, n);
       }
@@ -57,7 +60,8 @@ MeshData MakeUnitCylinder() {
   AddLattice(mesh, 0, kSides + 1, 2);
   for (const double z : {-0.5, 0.5}) {
     const Vec3 n(0.0, 0.0, z > 0.0 ? 1.0 : -1.0);
-    const auto centre = static_cast<std::uint32_t>(mesh.vertices.size() / 6);
+    const auto centre =
+        static_cast<std::uint32_t>(mesh.vertices.size() / MeshData::kFloatsPerVertex);
     mesh.AddVertex(Vec3(0, 0, z), n);
     for (std::uint32_t k = 0; k <= kSides; ++k) mesh.AddVertex(rim(k) + Vec3(0, 0, z), n);
     for (std::uint32_t k = 1; k <= kSides; ++k)
@@ -89,7 +93,8 @@ MeshData MakeGroundPatch(const terrains::Heightfield& ground, const Vec2& centre
     for (std::uint32_t c = 0; c < n; ++c) {
       const double x = centre.x() - half_m + c * spacing_m, y = centre.y() - half_m + r * spacing_m;
       const auto s = ground.At(x, y);
-      mesh.AddVertex(Vec3(x, y, s.z_m), Vec3(-s.gradient.x(), -s.gradient.y(), 1.0).normalized());
+      mesh.AddVertex(Vec3(x, y, s.z_m), Vec3(-s.gradient.x(), -s.gradient.y(), 1.0).normalized(),
+                     GroundColour(ground, {x, y}));
     }
   }
   AddLattice(mesh, 0, n, n);

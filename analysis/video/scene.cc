@@ -23,9 +23,11 @@ using Mat4f = Eigen::Matrix4f;
 constexpr const char* kVertexShader = R"(#version 330 core
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
+layout(location = 2) in vec3 vertex_colour;
 uniform mat4 model, view_projection;
-out vec3 world, world_normal;
+out vec3 world, world_normal, tint;
 void main() {
+  tint = vertex_colour;
   vec4 p = model * vec4(position, 1.0);
   world = p.xyz;
   world_normal = mat3(transpose(inverse(model))) * normal;
@@ -34,14 +36,14 @@ void main() {
 
 // The ground carries a half-metre grid, darker steep places and a soft shadow below the robot.
 constexpr const char* kFragmentShader = R"(#version 330 core
-in vec3 world, world_normal;
+in vec3 world, world_normal, tint;
 uniform vec3 colour, eye;
 uniform vec4 robot;       // x, y, cos yaw, sin yaw
 uniform int is_ground;
 out vec4 pixel;
 void main() {
   vec3 n = normalize(world_normal);
-  vec3 base = colour;
+  vec3 base = colour * tint;
   float shade = 1.0;
   if (is_ground == 1) {
     vec2 cell = abs(fract(world.xy * 2.0 + 0.5) - 0.5);
@@ -191,12 +193,12 @@ struct Scene::Impl {
     gl.BufferData(GL_ELEMENT_ARRAY_BUFFER,
                   static_cast<GLsizeiptr>(data.indices.size() * sizeof(std::uint32_t)),
                   data.indices.data(), GL_STATIC_DRAW);
-    constexpr GLsizei kStride = 6 * sizeof(float);
-    gl.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, kStride, nullptr);
-    gl.VertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, kStride,
-                           reinterpret_cast<const void*>(3 * sizeof(float)));
-    gl.EnableVertexAttribArray(0);
-    gl.EnableVertexAttribArray(1);
+    constexpr GLsizei kStride = MeshData::kFloatsPerVertex * sizeof(float);
+    for (GLuint attribute = 0; attribute < 3; ++attribute) {
+      gl.VertexAttribPointer(attribute, 3, GL_FLOAT, GL_FALSE, kStride,
+                             reinterpret_cast<const void*>(3 * sizeof(float) * attribute));
+      gl.EnableVertexAttribArray(attribute);
+    }
     return mesh;
   }
 
@@ -299,8 +301,8 @@ const std::uint8_t* Scene::Draw(const Frame& frame) {
   s.gl.Uniform4f(s.gl.GetUniformLocation(s.program, "robot"), static_cast<float>(frame.p_WB.x()),
                  static_cast<float>(frame.p_WB.y()), static_cast<float>(std::cos(yaw)),
                  static_cast<float>(std::sin(yaw)));
-  constexpr Colour kScoria = {0.46f, 0.34f, 0.29f};
-  s.DrawMesh(s.patch, Mat4f::Identity(), kScoria, true);
+  constexpr Colour kAsItIs = {0.8f, 0.75f, 0.72f};
+  s.DrawMesh(s.patch, Mat4f::Identity(), kAsItIs, true);
   s.DrawRobot(frame);
   for (const Stick& stick : frame.sticks) s.DrawStick(stick);
   for (const Ball& ball : frame.balls) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/robot/mesh.h"
 
+#include <array>
+
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
@@ -30,7 +32,14 @@ std::optional<TriangleMesh> LoadMesh(const std::filesystem::path& file, const Ve
     for (unsigned f = 0; f < part.mNumFaces; ++f) {
       const aiFace& face = part.mFaces[f];
       if (face.mNumIndices != 3) continue;
-      for (unsigned i = 0; i < 3; ++i) mesh.triangles.push_back(first + face.mIndices[i]);
+      const std::array<std::size_t, 3> v = {first + face.mIndices[0], first + face.mIndices[1],
+                                            first + face.mIndices[2]};
+      const Vec3 across = mesh.points[v[1]] - mesh.points[v[0]];
+      const Vec3 normal = across.cross(mesh.points[v[2]] - mesh.points[v[0]]).normalized();
+      for (const std::size_t i : v) {
+        mesh.triangles.push_back(static_cast<std::uint32_t>(i));
+        if (mesh.normals[i].squaredNorm() < 0.5) mesh.normals[i] = normal;  // as STL may leave it
+      }
     }
   }
   if (mesh.triangles.empty()) return std::nullopt;
