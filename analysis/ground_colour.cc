@@ -7,13 +7,25 @@
 
 namespace scoria::analysis {
 
+namespace {
+
+struct Rgb {
+  double r, g, b;
+};
+constexpr Rgb kRock = {0.23, 0.24, 0.27};
+constexpr std::array<Rgb, 6> kColours = {{{0.71, 0.65, 0.59},
+                                          {0.80, 0.51, 0.24},
+                                          {0.88, 0.78, 0.43},
+                                          {0.35, 0.67, 0.59},
+                                          {0.63, 0.47, 0.67},
+                                          {0.59, 0.75, 0.47}}};
+
+}  // namespace
+
 Vec3 MaterialColour(const terrains::Heightfield& ground, std::size_t index) {
-  static const std::array<Vec3, 6> kColours = {Vec3(0.71, 0.65, 0.59), Vec3(0.80, 0.51, 0.24),
-                                               Vec3(0.88, 0.78, 0.43), Vec3(0.35, 0.67, 0.59),
-                                               Vec3(0.63, 0.47, 0.67), Vec3(0.59, 0.75, 0.47)};
-  static const Vec3 kRock(0.23, 0.24, 0.27);
-  if (index > 0 && ground.covers()[index - 1].material.name == "rock") return kRock;
-  return kColours[index % kColours.size()];
+  const bool rock = index > 0 && ground.covers()[index - 1].material.name == "rock";
+  const Rgb& c = rock ? kRock : kColours[index % kColours.size()];
+  return {c.r, c.g, c.b};
 }
 
 Vec3 GroundColour(const terrains::Heightfield& ground, const Vec2& p_W) {

@@ -194,10 +194,12 @@ template <class Get>
 std::string TerrainRange(const CampaignResults& results, const char* format, Get get) {
   double low = 1e300, high = -1e300;
   for (const EpisodeRecord& e : results.episodes) {
-    if (!e.has_metrics) continue;
-    low = std::min(low, get(e.terrain));
-    high = std::max(high, get(e.terrain));
+    const double value = get(e.terrain);
+    if (!e.has_metrics || std::isnan(value)) continue;
+    low = std::min(low, value);
+    high = std::max(high, value);
   }
+  if (low > high) return "–";
   const std::string from = fmt::format(fmt::runtime(format), low);
   const std::string to = fmt::format(fmt::runtime(format), high);
   return from == to ? from : from + " to " + to;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -126,12 +127,16 @@ nlohmann::json ToJson(const terrains::TerrainStatistics& s) {
 
 terrains::TerrainStatistics StatisticsFromJson(const nlohmann::json& json) {
   terrains::TerrainStatistics s;
-  json.at("nu_10cm_m").get_to(s.nu_10cm_m);
-  json.at("nu_25cm_m").get_to(s.nu_25cm_m);
-  json.at("nu_1m_m").get_to(s.nu_1m_m);
-  json.at("hurst").get_to(s.hurst);
-  json.at("slope_mean_rad").get_to(s.slope_mean_rad);
-  json.at("slope_95_rad").get_to(s.slope_95_rad);
+  const auto read = [&](const char* key, double& value) {  // null: could not be measured
+    value = json.at(key).is_null() ? std::numeric_limits<double>::quiet_NaN()
+                                   : json.at(key).get<double>();
+  };
+  read("nu_10cm_m", s.nu_10cm_m);
+  read("nu_25cm_m", s.nu_25cm_m);
+  read("nu_1m_m", s.nu_1m_m);
+  read("hurst", s.hurst);
+  read("slope_mean_rad", s.slope_mean_rad);
+  read("slope_95_rad", s.slope_95_rad);
   for (const nlohmann::json& share : json.at("materials"))
     s.materials.push_back({share.at("name"), share.at("fraction")});
   return s;

@@ -66,7 +66,7 @@ void AddInfo(CLI::App& app) {
   info->add_option("robot", *file, "robot YAML")->required();
   info->callback([file] {
     const auto config = core::ReadConfig<core::RobotConfig>(core::LoadConfig(*file));
-    const core::RobotDescription robot = core::MakeRobot(config, core::ReadText(config.urdf));
+    const core::RobotDescription robot = core::ReadRobot(config);
     PrintRobot(robot);
     for (const std::string& suspicion : core::FindSuspicions(robot))
       fmt::print("warning: {}\n", suspicion);
@@ -100,12 +100,12 @@ terrains::TerrainParams LoadTerrain(const std::string& name, const std::vector<s
   return core::ReadConfig<terrains::TerrainParams>(node);
 }
 
-void PrintTerrain(const terrains::TerrainParams& params, const terrains::TerrainStatistics& s,
-                  std::size_t rocks) {
+void PrintTerrain(const terrains::TerrainParams& params, const terrains::Heightfield& ground,
+                  const terrains::TerrainStatistics& s, std::size_t rocks) {
   constexpr double kDegrees = 180.0 / std::numbers::pi;
+  const double spacing_m = ground.resolution_m(), edge_m = ground.nodes() * spacing_m;
   const terrains::RoughnessParams& asked = params.roughness;
-  fmt::print("{}: {:.1f} m of ground, {:.3f} m grid\n", params.name, params.size_m,
-             params.resolution_m);
+  fmt::print("{}: {:.1f} m of ground, {:.3f} m grid\n", params.name, edge_m, spacing_m);
   const auto wanted = [&](double value) {
     return asked.nu_1m_m > 0.0 ? fmt::format(" (asked {:.4f})", value) : "";
   };
@@ -115,8 +115,8 @@ void PrintTerrain(const terrains::TerrainParams& params, const terrains::Terrain
   fmt::print("  slope                  {:.1f} deg mean, {:.1f} deg 95 %\n",
              s.slope_mean_rad * kDegrees, s.slope_95_rad * kDegrees);
   if (params.rocks.area_fraction > 0.0) {
-    const double expected = terrains::RockDensity(params.rocks, params.rocks.min_diameter_m) *
-                            params.size_m * params.size_m;
+    const double expected =
+        terrains::RockDensity(params.rocks, params.rocks.min_diameter_m) * edge_m * edge_m;
     fmt::print("  rocks                  {} (expected {:.0f} +- {:.0f})\n", rocks, expected,
                std::sqrt(expected));
   }
@@ -156,7 +156,7 @@ void AddTerrain(CLI::App& app) {
     const std::size_t rocks =
         terrains::DrawRocks(params.rocks, edge_m, core::Rng(o->seed, 0, core::Stream::kRocks))
             .size();
-    PrintTerrain(params, statistics, rocks);
+    PrintTerrain(params, ground, statistics, rocks);
     if (!o->no_pictures) {
       fmt::print("  files                  {}/relief.png, deviogram.png, terrain.json\n",
                  folder.string());

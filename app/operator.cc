@@ -132,8 +132,15 @@ std::vector<std::array<int, 2>> FindPath(const CostMap& map, std::array<int, 2> 
 
 Route PlanRoute(const RouteParams& params, const terrains::Heightfield& ground) {
   constexpr int kCorners = 8;
+  constexpr double kMargin_m = 2.0, kSmallestLoop_m = 0.5;
+  const double radius_m = std::min(params.loop_radius_m, ground.half_size_m() - kMargin_m);
+  if (radius_m < kSmallestLoop_m) {
+    throw core::ConfigError(
+        {}, "terrain",
+        fmt::format("is {:.1f} m wide; a route needs at least {} m", 2.0 * ground.half_size_m(),
+                    2.0 * (kMargin_m + kSmallestLoop_m)));
+  }
   const CostMap map(params, ground);
-  const double radius_m = std::min(params.loop_radius_m, ground.half_size_m() - 2.0);
   Route route;
   for (int i = 0; i < kCorners; ++i) {
     const auto corner = [&](int k) {

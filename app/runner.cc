@@ -9,6 +9,7 @@
 
 #include "core/hash.h"
 #include "core/math/so3.h"
+#include "core/robot/normalise.h"
 #include "sim/sensors/sensors.h"
 
 namespace scoria::app {
@@ -243,8 +244,10 @@ class Episode {
     RobotState state;
     state.R_WB = core::RotationZ(yaw_rad);
     const core::RobotConfig& config = robot_.config;
-    state.q = standing ? controller::StandingPose(robot_, config.nominal_height_m)
-                       : LegArray<Vec3>(config.lying_pose_rad);
+    if (standing) state.q = controller::StandingPose(robot_, config.nominal_height_m);
+    for (const Leg leg : kLegs) {
+      if (!standing) state.q[leg] = core::LyingPose(robot_, leg);
+    }
     double clearance_m = 1e9;  // of the lowest foot over the ground if the trunk were at z = 0
     for (const Leg leg : kLegs) {
       const Vec3 p_BF_W = state.R_WB * core::CalcLegKinematics(robot_.legs[leg], state.q[leg]).p_BF;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/robot/normalise.h"
 #include "core/robot/whole_body.h"
 
 namespace scoria::controller {
@@ -13,7 +14,7 @@ LegArray<Vec3> StandingPose(const core::RobotDescription& robot, double height_m
     Vec3 p_BF = robot.NeutralFoothold(leg);
     p_BF.z() = -height_m;
     // The knee bends backwards, unless its limits forbid it.
-    const double way = robot.legs[leg].joints[2].lower_rad < 0.0 ? 1.0 : -1.0;
+    const double way = -core::KneeWay(robot.legs[leg]);
     const Vec3 guess(0.0, 0.8 * way, -1.6 * way);
     pose[leg] = core::SolveLegIk(robot.legs[leg], p_BF, guess);
   }

@@ -17,7 +17,8 @@ enum class Stream : std::uint32_t {
   kRopes,
   kGullies,
   kCraters,
-  kCells
+  kCells,
+  kRipples
 };
 
 /// Philox 4x32 with 10 rounds: a bijection of `counter` under `key`.

@@ -35,8 +35,11 @@ class Actuation {
   [[nodiscard]] const EnergyMeter& energy() const noexcept { return energy_; }
   [[nodiscard]] const BatteryState& battery() const noexcept { return battery_.state(); }
 
-  /// Forgets commands that are still on their way, after the robot was placed.
-  void Reset() noexcept { pending_ = 0; }
+  /// Forgets torques and the commands that are still on their way, after the robot was placed.
+  void Reset() noexcept {
+    pending_ = 0;
+    motor_tau_Nm_ = ZeroPerLeg();
+  }
 
  private:
   [[nodiscard]] const JointCommand& Delayed(const JointCommand& command, double dt_s) noexcept;

@@ -16,112 +16,6 @@
 namespace scoria::sim {
 namespace {
 
-/// The point of the surface nearest to `c`, by Gauss-Newton on its horizontal position.
-struct Nearest {
-  Vec3 p_W = Vec3::Zero();
-  Vec3 n_W = Vec3::UnitZ();
-};
-
-/// Gauss-Newton alone diverges over bumps sharper than the foot, so a step is halved until it
-/// brings the point nearer.
-Nearest FindNearest(const terrains::Heightfield& ground, const Vec3& c) {
-  constexpr int kIterations = 8, kHalvings = 4;
-  constexpr double kConverged_m = 1e-9;
-  Vec2 xy = c.head<2>();
-  terrains::Heightfield::Sample s = ground.At(xy.x(), xy.y());
-  const auto squared_distance = [&c](const Vec2& p, double z_m) {
-    return (c.head<2>() - p).squaredNorm() + (c.z() - z_m) * (c.z() - z_m);
-  };
-  double best = squared_distance(xy, s.z_m);
-  for (int i = 0; i < kIterations; ++i) {
-    const Vec2& g = s.gradient;
-    const Vec2 descent = c.head<2>() - xy + g * (c.z() - s.z_m);
-    Vec2 step = descent - g * (g.dot(descent) / (1.0 + g.squaredNorm()));  // (I + g gᵀ)⁻¹ descent
-    if (step.squaredNorm() < kConverged_m * kConverged_m) break;
-    bool nearer = false;
-    for (int h = 0; h < kHalvings && !nearer; ++h, step *= 0.5) {
-      const Vec2 trial = xy + step;
-      const terrains::Heightfield::Sample t = ground.At(trial.x(), trial.y());
-      const double distance = squared_distance(trial, t.z_m);
-      nearer = distance < best;
-      if (!nearer) continue;
-      best = distance;
-      xy = trial;
-      s = t;
-    }
-    if (!nearer) break;
-  }
-  return {Vec3(xy.x(), xy.y(), s.z_m), Vec3(-s.gradient.x(), -s.gradient.y(), 1.0).normalized()};
-}
-
-btVector3 ToBullet(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-
-class SphereGroundAlgorithm : public btActivatingCollisionAlgorithm {
- public:
-  SphereGroundAlgorithm(const btCollisionAlgorithmConstructionInfo& info,
-                        const btCollisionObjectWrapper* first,
-                        const btCollisionObjectWrapper* second, bool ground_first,
-                        const terrains::Heightfield& ground)
-      : btActivatingCollisionAlgorithm(info, first, second),
-        manifold_(info.m_manifold),
-        ground_first_(ground_first),
-        ground_(ground) {
-    if (manifold_ == nullptr) {
-      const auto* sphere = ground_first ? second : first;
-      const auto* terrain = ground_first ? first : second;
-      manifold_ =
-          m_dispatcher->getNewManifold(sphere->getCollisionObject(), terrain->getCollisionObject());
-      owned_ = true;
-    }
-  }
-  ~SphereGroundAlgorithm() override {
-    if (owned_) m_dispatcher->releaseManifold(manifold_);
-  }
-
-  void processCollision(const btCollisionObjectWrapper* first,
-                        const btCollisionObjectWrapper* second, const btDispatcherInfo&,
-                        btManifoldResult* result) override {
-    const auto* sphere = ground_first_ ? second : first;
-    const btVector3 centre = sphere->getWorldTransform().getOrigin();
-    const Vec3 c(centre.x(), centre.y(), centre.z());
-    const auto* shape = static_cast<const btSphereShape*>(sphere->getCollisionShape());
-    const double radius = shape->getRadius();
-    result->setPersistentManifold(manifold_);
-    manifold_->clearManifold();
-    const double threshold = manifold_->getContactBreakingThreshold();
-    const double above = c.z() - ground_.HeightAt(c.x(), c.y());
-    constexpr double kSteepest = 4.0;  // no surface point is nearer than height / sqrt(1 + slope^2)
-    if (above > (radius + threshold) * kSteepest) return;
-
-    const Nearest nearest = FindNearest(ground_, c);
-    const btVector3 n = ToBullet(nearest.n_W), p = ToBullet(nearest.p_W);
-    const double distance = (c - nearest.p_W).dot(nearest.n_W) - radius;
-    if (distance > threshold) return;
-    // The normal must point from the manifold's second body to its first.
-    if (manifold_->getBody0() == sphere->getCollisionObject()) {
-      result->addContactPoint(n, p, distance);
-    } else {
-      result->addContactPoint(-n, p + n * distance, distance);
-    }
-    if (manifold_->getNumContacts() == 0) return;
-    manifold_->getContactPoint(0).m_userPersistentData = shape->getUserPointer();
-  }
-
-  btScalar calculateTimeOfImpact(btCollisionObject*, btCollisionObject*, const btDispatcherInfo&,
-                                 btManifoldResult*) override {
-    return 1.0;
-  }
-  void getAllContactManifolds(btManifoldArray& manifolds) override {
-    if (owned_) manifolds.push_back(manifold_);
-  }
-
- private:
-  btPersistentManifold* manifold_;
-  bool owned_ = false;
-  bool ground_first_;
-  const terrains::Heightfield& ground_;
-};
-
 /// Highest ground in square blocks of the grid, to see quickly that a body is well above it.
 class CeilingMap {
  public:
@@ -167,16 +61,147 @@ class CeilingMap {
   std::vector<double> highest_m_;
 };
 
+/// What both algorithms below need to know.
+struct GroundShape {
+  const terrains::Heightfield& surface;
+  CeilingMap ceiling;
+  explicit GroundShape(const terrains::Heightfield& ground) : surface(ground), ceiling(ground) {}
+};
+
+/// The point of the surface nearest to `c`, by Gauss-Newton on its horizontal position.
+struct Nearest {
+  Vec3 p_W = Vec3::Zero();
+  Vec3 n_W = Vec3::UnitZ();
+  double squared_distance = 0.0;
+};
+
+/// From a start on the surface. Gauss-Newton alone diverges over bumps sharper than the foot, so a
+/// step is halved until it brings the point nearer.
+Nearest Descend(const terrains::Heightfield& ground, const Vec3& c, const Vec2& start) {
+  constexpr int kIterations = 8, kHalvings = 4;
+  constexpr double kConverged_m = 1e-9;
+  Vec2 xy = start;
+  terrains::Heightfield::Sample s = ground.At(xy.x(), xy.y());
+  const auto squared_distance = [&c](const Vec2& p, double z_m) {
+    return (c.head<2>() - p).squaredNorm() + (c.z() - z_m) * (c.z() - z_m);
+  };
+  double best = squared_distance(xy, s.z_m);
+  for (int i = 0; i < kIterations; ++i) {
+    const Vec2& g = s.gradient;
+    const Vec2 descent = c.head<2>() - xy + g * (c.z() - s.z_m);
+    Vec2 step = descent - g * (g.dot(descent) / (1.0 + g.squaredNorm()));  // (I + g gᵀ)⁻¹ descent
+    if (step.squaredNorm() < kConverged_m * kConverged_m) break;
+    bool nearer = false;
+    for (int h = 0; h < kHalvings && !nearer; ++h, step *= 0.5) {
+      const Vec2 trial = xy + step;
+      const terrains::Heightfield::Sample t = ground.At(trial.x(), trial.y());
+      const double distance = squared_distance(trial, t.z_m);
+      nearer = distance < best;
+      if (!nearer) continue;
+      best = distance;
+      xy = trial;
+      s = t;
+    }
+    if (!nearer) break;
+  }
+  return {Vec3(xy.x(), xy.y(), s.z_m), Vec3(-s.gradient.x(), -s.gradient.y(), 1.0).normalized(),
+          best};
+}
+
+/// From below the sphere; and from a reach to each side where the ground there rises above the
+/// sphere's lowest point, since level ground below knows nothing of a wall beside it.
+Nearest FindNearest(const terrains::Heightfield& ground, const Vec3& c, double radius_m,
+                    double reach_m) {
+  Nearest nearest = Descend(ground, c, c.head<2>());
+  for (const Vec2& side : {Vec2(1.0, 0.0), Vec2(-1.0, 0.0), Vec2(0.0, 1.0), Vec2(0.0, -1.0)}) {
+    const Vec2 start = c.head<2>() + reach_m * side;
+    if (ground.HeightAt(start.x(), start.y()) < c.z() - radius_m) continue;
+    const Nearest other = Descend(ground, c, start);
+    if (other.squared_distance < nearest.squared_distance) nearest = other;
+  }
+  return nearest;
+}
+
+btVector3 ToBullet(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+class SphereGroundAlgorithm : public btActivatingCollisionAlgorithm {
+ public:
+  SphereGroundAlgorithm(const btCollisionAlgorithmConstructionInfo& info,
+                        const btCollisionObjectWrapper* first,
+                        const btCollisionObjectWrapper* second, bool ground_first,
+                        const GroundShape& ground)
+      : btActivatingCollisionAlgorithm(info, first, second),
+        manifold_(info.m_manifold),
+        ground_first_(ground_first),
+        ground_(ground) {
+    if (manifold_ == nullptr) {
+      const auto* sphere = ground_first ? second : first;
+      const auto* terrain = ground_first ? first : second;
+      manifold_ =
+          m_dispatcher->getNewManifold(sphere->getCollisionObject(), terrain->getCollisionObject());
+      owned_ = true;
+    }
+  }
+  ~SphereGroundAlgorithm() override {
+    if (owned_) m_dispatcher->releaseManifold(manifold_);
+  }
+
+  void processCollision(const btCollisionObjectWrapper* first,
+                        const btCollisionObjectWrapper* second, const btDispatcherInfo&,
+                        btManifoldResult* result) override {
+    const auto* sphere = ground_first_ ? second : first;
+    const btVector3 centre = sphere->getWorldTransform().getOrigin();
+    const Vec3 c(centre.x(), centre.y(), centre.z());
+    const auto* shape = static_cast<const btSphereShape*>(sphere->getCollisionShape());
+    const double radius = shape->getRadius();
+    result->setPersistentManifold(manifold_);
+    manifold_->clearManifold();
+    const double threshold = manifold_->getContactBreakingThreshold();
+    const double reach = radius + threshold;
+    const btVector3 span(reach, reach, 0.0);
+    constexpr double kOvershoot_m = 0.01;  // of the bicubic surface over its nodes
+    if (c.z() - reach > ground_.ceiling.HighestIn(centre - span, centre + span) + kOvershoot_m)
+      return;
+
+    const Nearest nearest = FindNearest(ground_.surface, c, radius, reach);
+    const btVector3 n = ToBullet(nearest.n_W), p = ToBullet(nearest.p_W);
+    const double distance = (c - nearest.p_W).dot(nearest.n_W) - radius;
+    if (distance > threshold) return;
+    // The normal must point from the manifold's second body to its first.
+    if (manifold_->getBody0() == sphere->getCollisionObject()) {
+      result->addContactPoint(n, p, distance);
+    } else {
+      result->addContactPoint(-n, p + n * distance, distance);
+    }
+    if (manifold_->getNumContacts() == 0) return;
+    manifold_->getContactPoint(0).m_userPersistentData = shape->getUserPointer();
+  }
+
+  btScalar calculateTimeOfImpact(btCollisionObject*, btCollisionObject*, const btDispatcherInfo&,
+                                 btManifoldResult*) override {
+    return 1.0;
+  }
+  void getAllContactManifolds(btManifoldArray& manifolds) override {
+    if (owned_) manifolds.push_back(manifold_);
+  }
+
+ private:
+  btPersistentManifold* manifold_;
+  bool owned_ = false;
+  bool ground_first_;
+  const GroundShape& ground_;
+};
+
 /// Bullet's convex-against-triangles test, skipped while the convex body is above everything below
 /// it.
 class BodyGroundAlgorithm : public btConvexConcaveCollisionAlgorithm {
  public:
   BodyGroundAlgorithm(const btCollisionAlgorithmConstructionInfo& info,
                       const btCollisionObjectWrapper* first, const btCollisionObjectWrapper* second,
-                      bool ground_first, const CeilingMap& ceiling)
+                      bool ground_first, const GroundShape& ground)
       : btConvexConcaveCollisionAlgorithm(info, first, second, ground_first),
         ground_first_(ground_first),
-        ceiling_(ceiling) {}
+        ceiling_(ground.ceiling) {}
 
   void processCollision(const btCollisionObjectWrapper* first,
                         const btCollisionObjectWrapper* second, const btDispatcherInfo& info,
@@ -196,36 +221,36 @@ class BodyGroundAlgorithm : public btConvexConcaveCollisionAlgorithm {
   const CeilingMap& ceiling_;
 };
 
-/// Makes algorithms of one kind; `Context` is the last argument of their constructor.
-template <class Algorithm, class Context>
+/// Makes algorithms of one kind.
+template <class Algorithm>
 class Factory : public btCollisionAlgorithmCreateFunc {
  public:
-  Factory(const Context& context, bool ground_first)
-      : context_(context), ground_first_(ground_first) {}
+  Factory(const GroundShape& ground, bool ground_first)
+      : ground_(ground), ground_first_(ground_first) {}
   btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
                                                  const btCollisionObjectWrapper* first,
                                                  const btCollisionObjectWrapper* second) override {
     void* memory = info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(Algorithm));
-    return new (memory) Algorithm(info, first, second, ground_first_, context_);
+    return new (memory) Algorithm(info, first, second, ground_first_, ground_);
   }
 
  private:
-  const Context& context_;
+  const GroundShape& ground_;
   bool ground_first_;
 };
 
 }  // namespace
 
 struct GroundContact::Impl {
-  explicit Impl(const terrains::Heightfield& ground)
-      : ceiling(ground),
+  explicit Impl(const terrains::Heightfield& surface)
+      : ground(surface),
         foot_first(ground, false),
         ground_foot(ground, true),
-        body_first(ceiling, false),
-        ground_body(ceiling, true) {}
-  CeilingMap ceiling;
-  Factory<SphereGroundAlgorithm, terrains::Heightfield> foot_first, ground_foot;
-  Factory<BodyGroundAlgorithm, CeilingMap> body_first, ground_body;
+        body_first(ground, false),
+        ground_body(ground, true) {}
+  GroundShape ground;
+  Factory<SphereGroundAlgorithm> foot_first, ground_foot;
+  Factory<BodyGroundAlgorithm> body_first, ground_body;
 };
 
 GroundContact::GroundContact(btCollisionDispatcher& dispatcher, const terrains::Heightfield& ground)

@@ -35,8 +35,9 @@ FootGround::FootGround(const GroundParams& params, double radius_m, double load_
   if (remembers_) law_ = std::get<PlasticGround>(params);
 }
 
-void FootGround::Prepare(const terrains::GroundSample& ground, double approach_mps, double dt_s,
-                         ContactPoint& contact) noexcept {
+void FootGround::Prepare(const terrains::GroundSample& ground, const Vec3& p_WP,
+                         double approach_mps, double dt_s, ContactPoint& contact) noexcept {
+  if ((p_WP - p_WI_).head<2>().norm() > radius_m_) deepest_m_ = 0.0;
   constexpr double kLeast_m = 1e-5;  // the law has no stiffness at the very surface
   const double sinkage_m = -contact.gap_m;
   const double ahead_m =
@@ -60,17 +61,30 @@ void FootGround::Finish(const ContactPoint& contact, const Vec3& p_WP, double dt
   normal_N_ = contact.n_W.dot(contact.impulse_W) / dt_s;
   if (normal_N_ <= 0.0) return Lift();
   const Vec3 slip_W = dt_s * (contact.v_W - contact.n_W * contact.n_W.dot(contact.v_W));
-  shear_W_ += slip_W;
-  shear_W_ -= contact.n_W * contact.n_W.dot(shear_W_);
-  constexpr double kMobilised = 5.0;  // times K: all of the friction
-  const double longest = kMobilised * law_.shear_displacement_m, length = shear_W_.norm();
-  if (length > longest) shear_W_ *= longest / length;
-  // A foot that leaves its imprint, stepping or sliding, meets fresh ground.
-  const double moved_m = (p_WP - p_WI_).head<2>().norm();
-  if (moved_m > radius_m_) deepest_m_ = 0.0;
+  Shear(slip_W, contact.n_W);
   deepest_m_ =
       std::max(deepest_m_ * std::max(0.0, 1.0 - slip_W.norm() / radius_m_), -contact.gap_m);
   p_WI_ = p_WP;
+}
+
+/// Slip that shears further counts once; slip back counts unloading_ratio times, so that sheared
+/// ground gives back only that share of its work.
+void FootGround::Shear(const Vec3& slip_W, const Vec3& n_W) noexcept {
+  constexpr double kMobilised = 5.0;  // times K: all of the friction
+  const double stretch_m = shear_W_.norm();
+  Vec3 slip = slip_W;
+  if (stretch_m > 0.0) {
+    const Vec3 along = shear_W_ / stretch_m;
+    const double back_m = -slip.dot(along);
+    if (back_m > 0.0) {
+      const double counted_m = std::min(law_.unloading_ratio * back_m, stretch_m + back_m);
+      slip -= (counted_m - back_m) * along;
+    }
+  }
+  shear_W_ += slip;
+  shear_W_ -= n_W * n_W.dot(shear_W_);
+  const double longest_m = kMobilised * law_.shear_displacement_m, length_m = shear_W_.norm();
+  if (length_m > longest_m) shear_W_ *= longest_m / length_m;
 }
 
 void FootGround::Lift() noexcept {
@@ -80,9 +94,11 @@ void FootGround::Lift() noexcept {
 
 void PrepareBodyContact(const terrains::GroundSample& ground, double load_kg,
                         ContactPoint& contact) noexcept {
-  constexpr double kArea_m2 = 1e-3, kSoftest_N_per_m = 2e3, kStiffest_N_per_m = 2e5;
-  contact.stiffness_N_per_m =
-      std::clamp(ground.layer_N_per_m3 * kArea_m2, kSoftest_N_per_m, kStiffest_N_per_m);
+  constexpr double kCorner_m = 0.03, kLeast_m = 1e-3;  // radius; depth at which it is judged
+  constexpr double kSoftest_N_per_m = 2e3, kStiffest_N_per_m = 2e5;
+  const double depth_m = std::max(-contact.gap_m, kLeast_m);
+  contact.stiffness_N_per_m = std::clamp(CalcSinkageForce(ground, kCorner_m, depth_m) / depth_m,
+                                         kSoftest_N_per_m, kStiffest_N_per_m);
   contact.damping_Ns_per_m = DampingOf(ground.damping_ratio, contact.stiffness_N_per_m, load_kg);
   contact.friction = ground.friction;
 }

@@ -20,9 +20,9 @@ struct ElasticGround {
 };
 
 /// Ground that keeps the imprint of a foot and has to be sheared before it holds. Unloading is
-/// stiffer than loading by `unloading_ratio`; the share of the friction limit that shear
-/// displacement j mobilises is 1 − exp(−j / K). Source: [Janosi1961]; unloading 5 to 10 times
-/// stiffer as for dry granular soil.
+/// stiffer than loading by `unloading_ratio`, down and along the ground alike; the share of the
+/// friction limit that shear displacement j mobilises is 1 − exp(−j / K). Source: [Janosi1961];
+/// unloading 5 to 10 times stiffer as for dry granular soil.
 struct PlasticGround {
   static constexpr const char* kType = "plastic";
   double unloading_ratio = 7.0;
@@ -32,7 +32,7 @@ struct PlasticGround {
     a.Field("unloading_ratio", unloading_ratio,
             {.min = 1.0, .max = 100.0, .doc = "stiffness of unloading over that of loading"});
     a.Field("shear_displacement_m", shear_displacement_m,
-            {.min = 0.0, .max = 0.1, .doc = "Janosi's K; 0 holds at once"});
+            {.min = 0.002, .max = 0.1, .doc = "Janosi's K"});
   }
 };
 
@@ -52,9 +52,11 @@ class FootGround {
 
   /// Fills friction, springs and dampers of a contact that approaches at `approach_mps`. Stiffness
   /// is the secant of the pressure-sinkage law where the foot is about to be, so that the implicit
-  /// step stays stable on any ground and rests exactly on the law.
-  void Prepare(const terrains::GroundSample& ground, double approach_mps, double dt_s,
-               ContactPoint& contact) noexcept;
+  /// step stays stable on any ground and rests exactly on the law. A foot that has left its
+  /// imprint, stepping or sliding, meets fresh ground.
+  /// @param p_WP  the contact point.
+  void Prepare(const terrains::GroundSample& ground, const Vec3& p_WP, double approach_mps,
+               double dt_s, ContactPoint& contact) noexcept;
 
   /// Remembers what the solved contact did to the ground.
   /// @param p_WP  the contact point.
@@ -64,6 +66,8 @@ class FootGround {
   void Lift() noexcept;
 
  private:
+  void Shear(const Vec3& slip_W, const Vec3& n_W) noexcept;
+
   PlasticGround law_{1.0, 0.0};  // elastic ground is plastic ground with no memory
   bool remembers_ = false;
   double radius_m_ = 0.0, load_kg_ = 0.0;
@@ -73,7 +77,7 @@ class FootGround {
   double normal_N_ = 0.0;        // of the last step
 };
 
-/// Fills a contact of a body other than a foot: flat on the ground with a fixed area.
+/// Fills a contact of a body other than a foot: a blunt corner on the same ground.
 void PrepareBodyContact(const terrains::GroundSample& ground, double load_kg,
                         ContactPoint& contact) noexcept;
 

@@ -155,7 +155,11 @@ StepSolver::ContactRows StepSolver::MakeContact(const core::WholeBody& wb, const
     return MakeRow(leg, J_leg, J_trunk);
   };
   const Vec3 across_W = Tangent(c.n_W), along_W = c.n_W.cross(across_W);
-  ContactRows rows{along_direction(c.n_W), along_direction(across_W), along_direction(along_W),
+  ContactRows rows{along_direction(c.n_W),
+                   along_direction(across_W),
+                   along_direction(along_W),
+                   across_W,
+                   along_W,
                    c.friction};
 
   // Spring and damper at the end of the step: λ = dt (k (s − v dt) − c v), s the compression now.
@@ -205,26 +209,25 @@ void StepSolver::CollectRows(const core::WholeBody& wb, std::span<const ContactP
       joints_.push_back(friction);
     }
   }
-  constexpr double kUnlimited_Ns = 1e9, kCorrection = 0.2;  // share of a violation undone per step
   for (const Leg leg : kLegs) {
-    for (int j = 0; j < kJointsPerLeg; ++j) {
-      const core::JointDescription& joint = robot_.legs[leg].joints[static_cast<std::size_t>(j)];
-      const double q = wb.state.q[leg][j], qd = wb.state.qd[leg][j];
-      constexpr double kNear_rad = 0.05;
-      if (q - joint.lower_rad < kNear_rad + std::abs(qd) * dt_s) {
-        JointRow limit{MakeRow(leg, Vec3::Unit(j), Vec6::Zero()), 0.0, kUnlimited_Ns};
-        const double room_rad = q - joint.lower_rad;
-        limit.row.target = -(room_rad < 0.0 ? kCorrection : 1.0) * room_rad / dt_s;
-        joints_.push_back(limit);
-      }
-      if (joint.upper_rad - q < kNear_rad + std::abs(qd) * dt_s) {
-        JointRow limit{MakeRow(leg, Vec3::Unit(j), Vec6::Zero()), -kUnlimited_Ns, 0.0};
-        const double room_rad = joint.upper_rad - q;
-        limit.row.target = (room_rad < 0.0 ? kCorrection : 1.0) * room_rad / dt_s;
-        joints_.push_back(limit);
-      }
-    }
+    for (int j = 0; j < kJointsPerLeg; ++j) AddLimits(leg, j, wb.state, dt_s);
   }
+}
+
+/// A joint near a limit may use up the room that is left; one beyond it is drawn back slowly.
+void StepSolver::AddLimits(Leg leg, int j, const RobotState& state, double dt_s) {
+  constexpr double kUnlimited_Ns = 1e9, kNear_rad = 0.05, kReturn_radps = 1.0;
+  const core::JointDescription& joint = robot_.legs[leg].joints[static_cast<std::size_t>(j)];
+  const double q = state.q[leg][j], reach_rad = kNear_rad + std::abs(state.qd[leg][j]) * dt_s;
+  const auto add = [&](double room_rad, double inwards) {
+    if (room_rad > reach_rad) return;
+    JointRow limit{MakeRow(leg, Vec3::Unit(j), Vec6::Zero()), inwards > 0.0 ? 0.0 : -kUnlimited_Ns,
+                   inwards > 0.0 ? kUnlimited_Ns : 0.0};
+    limit.row.target = -inwards * std::max(room_rad / dt_s, -kReturn_radps);
+    joints_.push_back(limit);
+  };
+  add(q - joint.lower_rad, 1.0);
+  add(joint.upper_rad - q, -1.0);
 }
 
 void StepSolver::Iterate() {

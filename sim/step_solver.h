@@ -90,7 +90,8 @@ class StepSolver {
     double impulse = 0.0;
   };
   struct ContactRows {
-    Row normal, across, along;  // the last two span the tangent plane
+    Row normal, across, along;
+    Vec3 across_W, along_W;  // span the tangent plane
     double friction = 0.0;
   };
   /// A joint's friction or limit.
@@ -109,6 +110,7 @@ class StepSolver {
   [[nodiscard]] ContactRows MakeContact(const core::WholeBody& wb, const ContactPoint& c,
                                         double dt_s) const noexcept;
   void CollectRows(const core::WholeBody& wb, std::span<const ContactPoint> contacts, double dt_s);
+  void AddLimits(Leg leg, int j, const RobotState& state, double dt_s);
   void Iterate();
   [[nodiscard]] double SolveContact(ContactRows& c) noexcept;
   [[nodiscard]] double SolveJoint(JointRow& j) noexcept;

@@ -48,6 +48,18 @@ std::unique_ptr<btCollisionShape> MakeShape(const Shape& shape) {
   SCORIA_DEMAND(false, "a mesh does not collide; MakeRobot puts a box in its place");
 }
 
+/// A heightfield that reaches as far as its border's height continues, and as deep as feet sink.
+class EndlessHeightfield final : public btHeightfieldTerrainShape {
+ public:
+  using btHeightfieldTerrainShape::btHeightfieldTerrainShape;
+  void getAabb(const btTransform& t, btVector3& low, btVector3& high) const override {
+    constexpr double kFar_m = 1e4, kDeep_m = 1.0, kOvershoot_m = 0.1;  // of the bicubic surface
+    btHeightfieldTerrainShape::getAabb(t, low, high);
+    low.setValue(-kFar_m, -kFar_m, low.z() - kDeep_m);
+    high.setValue(kFar_m, kFar_m, high.z() + kOvershoot_m);
+  }
+};
+
 /// The robot's bodies and the ground as Bullet sees them.
 class Collisions {
  public:
@@ -103,7 +115,7 @@ class Collisions {
     constexpr double kMargin_m = 0.01;
     constexpr int kUpAxis = 2;
     const double low = ground.min_m() - kMargin_m, high = ground.max_m() + kMargin_m;
-    auto shape = std::make_unique<btHeightfieldTerrainShape>(
+    auto shape = std::make_unique<EndlessHeightfield>(
         ground.nodes(), ground.nodes(), ground.heights_m().data(), low, high, kUpAxis, false);
     shape->setLocalScaling(btVector3(ground.resolution_m(), ground.resolution_m(), 1.0));
     auto object = std::make_unique<btCollisionObject>();
@@ -144,8 +156,6 @@ class Collisions {
   std::vector<std::unique_ptr<btCollisionObject>> objects_;
 };
 
-Leg LegOf(int body) { return kLegs[static_cast<std::size_t>((body - 1) / kJointsPerLeg)]; }
-
 }  // namespace
 
 struct World::Impl {
@@ -169,6 +179,7 @@ struct World::Impl {
   LegArray<FootGround> feet;
   LegArray<Vec3> foot_impulse_W = ZeroPerLeg();  // of the last step: where the solver starts
   std::vector<ContactPoint> contacts;
+  std::int64_t unconverged_steps = 0;
   Truth truth;
   Vec3 f_trunk_W = Vec3::Zero(), t_trunk_W = Vec3::Zero();
 };
@@ -197,9 +208,9 @@ void World::Impl::FindContacts() {
       PrepareBodyContact(sample, load_kg, c);
       continue;
     }
-    const Leg leg = LegOf(c.body);
+    const Leg leg = core::LegOf(c.body);
     // The sphere's velocity along the normal is the same all over it.
-    feet[leg].Prepare(sample, -c.n_W.dot(whole_body.v_WF[leg]), params.step_s, c);
+    feet[leg].Prepare(sample, p_WP, -c.n_W.dot(whole_body.v_WF[leg]), params.step_s, c);
     c.impulse_W = foot_impulse_W[leg];
     near[leg] = true;
   }
@@ -231,7 +242,7 @@ void World::Impl::RecordContacts() {
     const Vec3 f_W = c.impulse_W / params.step_s;
     if (c.body == 0) f_trunk_W += f_W;
     if (!c.is_foot) continue;
-    const Leg leg = LegOf(c.body);
+    const Leg leg = core::LegOf(c.body);
     foot_impulse_W[leg] = c.impulse_W;
     truth.f_F_W[leg] = f_W;
     truth.f_normal_N[leg] = c.n_W.dot(f_W);
@@ -254,7 +265,9 @@ void World::Impl::UpdateTruth() {
 
 World::World(const RobotDescription& robot, const terrains::Heightfield& ground,
              const PhysicsParams& params, const Vec3& gravity_W)
-    : impl_(std::make_unique<Impl>(robot, ground, params, gravity_W)) {}
+    : impl_(std::make_unique<Impl>(robot, ground, params, gravity_W)) {
+  Reset(RobotState{});
+}
 
 World::~World() = default;
 
@@ -283,11 +296,14 @@ void World::Step(const LegArray<Vec3>& tau_Nm) {
   w.Integrate(v);
   w.UpdateTruth();
   w.truth.energy.work += w.solver.work();
+  if (w.solver.iterations() >= w.params.max_solver_iterations) ++w.unconverged_steps;
 }
 
 const Truth& World::truth() const noexcept { return impl_->truth; }
 
 int World::solver_iterations() const noexcept { return impl_->solver.iterations(); }
+
+std::int64_t World::unconverged_steps() const noexcept { return impl_->unconverged_steps; }
 
 void World::SetTrunkWrench(const Vec3& f_W, const Vec3& t_W) {
   impl_->f_trunk_W = f_W;

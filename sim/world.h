@@ -77,6 +77,8 @@ class World {
 
   [[nodiscard]] const Truth& truth() const noexcept;
   [[nodiscard]] int solver_iterations() const noexcept;  // of the last step
+  /// Steps so far that stopped at the limit of iterations, as a robot that lies on many points may.
+  [[nodiscard]] std::int64_t unconverged_steps() const noexcept;
 
   /// Sets a constant external force and moment on the trunk, in W about B's COM, until changed.
   void SetTrunkWrench(const Vec3& f_W, const Vec3& t_W);

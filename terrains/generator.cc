@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "terrains/heightmap.h"
@@ -33,17 +34,15 @@ Grid MakeForms(const TerrainParams& params, std::uint64_t seed, std::uint32_t ep
   return forms;
 }
 
-/// Where ripples lie: on their material first, then around it.
-Grid RipplePresence(const TerrainParams& params, const std::vector<Grid>& fields,
-                    const Grid& like) {
+/// Where ripples lie: on their material first, then around it; without one, anywhere.
+Grid RipplePresence(const TerrainParams& params, const std::vector<Grid>& fields, const Grid& like,
+                    const Rng& rng) {
   const RippleParams& ripples = params.ripples;
   for (std::size_t i = 0; i < params.patches.size(); ++i) {
     if (params.patches[i].name == ripples.material)
       return CoverHighest(fields[i], ripples.fraction, kBlend_m);
   }
-  Grid everywhere(like.nodes, like.spacing_m);
-  std::fill(everywhere.values.begin(), everywhere.values.end(), 1.0);
-  return everywhere;
+  return CoverHighest(DrawPatchField(like.nodes, like.spacing_m, rng), ripples.fraction, kBlend_m);
 }
 
 /// Adds a cover above those that are there: it takes its share of what they leave and of theirs.
@@ -107,14 +106,23 @@ std::string TerrainParams::Problem() const {
   if (roughness.nu_1m_m > 0.0 && roughness.max_wavelength_m < 4.0 * resolution_m) {
     return "roughness.max_wavelength_m must be at least 4 resolution_m";
   }
+  if (ropes.amplitude_m > 0.0 && ropes.max_wavelength_m < 2.0 * resolution_m) {
+    return "ropes.max_wavelength_m must be at least 2 resolution_m";
+  }
   std::string names;
-  for (const PatchParams& patch : patches) names += (names.empty() ? "" : ", ") + patch.name;
-  const bool known = ripples.material.empty() ||
-                     std::any_of(patches.begin(), patches.end(), [&](const PatchParams& patch) {
-                       return patch.name == ripples.material;
-                     });
+  double covered = 0.0;
+  for (const PatchParams& patch : patches) {
+    covered += patch.fraction;
+    if (patch.where == PatchPlace::kAnywhere) names += (names.empty() ? "" : ", ") + patch.name;
+  }
+  if (covered > 1.0) return fmt::format("patches: fractions sum to {}, more than 1", covered);
+  const auto carries_ripples = [&](const PatchParams& patch) {
+    return patch.name == ripples.material && patch.where == PatchPlace::kAnywhere;
+  };
+  const bool known =
+      ripples.material.empty() || std::any_of(patches.begin(), patches.end(), carries_ripples);
   if (!known) {
-    return fmt::format("ripples.material: unknown \"{}\"; the patches here are: {}",
+    return fmt::format("ripples.material: unknown \"{}\"; the patches that lie anywhere are: {}",
                        ripples.material, names.empty() ? "none" : names);
   }
   return "";
@@ -132,7 +140,8 @@ Heightfield GenerateTerrain(const TerrainParams& params, std::uint64_t seed,
                          : Grid(0, 0.0));
   }
   if (params.ripples.amplitude_m > 0.0)
-    AddRipples(heights, params.ripples, RipplePresence(params, fields, heights));
+    AddRipples(heights, params.ripples,
+               RipplePresence(params, fields, heights, Rng(seed, episode, Stream::kRipples)));
   const std::vector<Rock> rocks =
       DrawRocks(params.rocks, heights.edge_m(), Rng(seed, episode, Stream::kRocks));
   Grid other = heights;
@@ -151,7 +160,7 @@ Heightfield GenerateTerrain(const TerrainParams& params, std::uint64_t seed,
   }
   if (!rocks.empty()) {
     const Material rock{"rock", params.rocks.friction, params.rocks.stiffness_N_per_m3, 0.5, 0.0};
-    LayOver(covers, rock, AddRocks(heights, rocks));
+    LayOver(covers, rock, SoftenEdges(AddRocks(heights, rocks)));
   }
 
   for (double& z : heights.values) z *= params.roughness_scale;
@@ -170,13 +179,20 @@ TerrainStatistics MeasureTerrain(const Heightfield& ground, const TerrainParams&
   const Grid heights = HeightsOf(ground);
   const Vec2 plane = FitPlane(heights);
   TerrainStatistics stats;
-  stats.nu_10cm_m = CalcDeviation(heights, 0.1, plane);
-  stats.nu_25cm_m = CalcDeviation(heights, 0.25, plane);
-  stats.nu_1m_m = CalcDeviation(heights, 1.0, plane);
   const double dx = heights.spacing_m;
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  const auto deviation = [&](double lag_m) {
+    const bool fits = lag_m >= 0.999 * dx && lag_m <= 0.25 * heights.edge_m();
+    return fits ? CalcDeviation(heights, lag_m, plane) : kUnknown;
+  };
+  stats.nu_10cm_m = deviation(0.1);
+  stats.nu_25cm_m = deviation(0.25);
+  stats.nu_1m_m = deviation(1.0);
   const double last_m = std::max(10.0 * dx, params.roughness.max_wavelength_m / 10.0);
   const double first_m = std::clamp(params.roughness.break_wavelength_m, 5.0 * dx, 0.5 * last_m);
-  stats.hurst = FitExponent(heights, first_m, last_m, plane);
+  const bool rough =
+      heights.edge_m() >= 4.0 * last_m && CalcDeviation(heights, first_m, plane) > 0.0;
+  stats.hurst = rough ? FitExponent(heights, first_m, last_m, plane) : kUnknown;
   MeasureSlopes(heights, stats);
 
   stats.materials.push_back({ground.substrate().name, 1.0});

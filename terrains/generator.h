@@ -17,7 +17,8 @@ namespace scoria::terrains {
 [[nodiscard]] Heightfield GenerateTerrain(const TerrainParams& params, std::uint64_t seed,
                                           std::uint32_t episode);
 
-/// What a heightfield achieved, measured on its grid with its mean plane removed.
+/// What a heightfield achieved, measured on its grid with its mean plane removed. NaN where the
+/// grid is too coarse, too small or too level to tell.
 struct TerrainStatistics {
   double nu_10cm_m = 0.0, nu_25cm_m = 0.0, nu_1m_m = 0.0;  // RMS height difference at these lags
   double hurst =

@@ -38,6 +38,8 @@ Heightfield::Heightfield(int nodes, double resolution_m, std::vector<double> hei
   const auto [low, high] = std::minmax_element(heights_m_.begin(), heights_m_.end());
   min_m_ = *low;
   max_m_ = *high;
+  SCORIA_DEMAND(std::isfinite(min_m_) && std::isfinite(max_m_), "heights from {} to {}", min_m_,
+                max_m_);
 }
 
 double Heightfield::NodeHeight(int column, int row) const noexcept {
@@ -73,6 +75,9 @@ Heightfield::Sample Heightfield::At(double x_m, double y_m) const noexcept {
     sample.gradient.y() += wy.d[b] * row;
   }
   sample.gradient /= resolution_m_;
+  const double reach_m = half_size_m();  // beyond it the border's height continues, level
+  if (std::abs(x_m) > reach_m) sample.gradient.x() = 0.0;
+  if (std::abs(y_m) > reach_m) sample.gradient.y() = 0.0;
   return sample;
 }
 

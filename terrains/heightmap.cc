@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "terrains/heightmap.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -13,18 +15,27 @@
 namespace scoria::terrains {
 namespace {
 
-constexpr int kFewestNodes = 16;
+constexpr int kFewestNodes = 16, kMostNodes = 16384;
+constexpr double kFinest_m = 0.005, kCoarsest_m = 0.5, kSmallestEdge_m = 6.0;
 
 [[noreturn]] void Fail(const HeightmapParams& params, int line, const std::string& rule) {
   throw core::ConfigError({params.file.string(), line, line > 0 ? 1 : 0}, "heightmap", rule);
 }
 
-void CheckSquare(const HeightmapParams& params, long columns, long rows) {
+void CheckSquare(const HeightmapParams& params, long columns, long rows, double spacing_m) {
   if (columns != rows) {
     Fail(params, 0, fmt::format("is {} x {} cells; a heightmap must be square", columns, rows));
   }
   if (columns < kFewestNodes) {
     Fail(params, 0, fmt::format("has {} cells along an edge; at least {}", columns, kFewestNodes));
+  }
+  if (columns > kMostNodes) {
+    Fail(params, 0, fmt::format("has {} cells along an edge; at most {}", columns, kMostNodes));
+  }
+  if (static_cast<double>(columns) * spacing_m < kSmallestEdge_m) {
+    Fail(params, 0,
+         fmt::format("is {} m wide; a robot needs at least {} m",
+                     static_cast<double>(columns) * spacing_m, kSmallestEdge_m));
   }
 }
 
@@ -58,7 +69,7 @@ class PngReader {
            fmt::format("has {} bits{}; a heightmap needs 16-bit grey", depth,
                        colour == PNG_COLOR_TYPE_GRAY ? "" : " and colours"));
     }
-    CheckSquare(params_, columns, rows);
+    CheckSquare(params_, columns, rows, spacing_m);
     const auto n = static_cast<std::size_t>(columns);
     std::vector<png_byte> bytes(n * n * 2);
     std::vector<png_bytep> lines(n);
@@ -88,63 +99,98 @@ std::string Lower(std::string text) {
   return text;
 }
 
-/// Source: ESRI ASCII raster format; the header's keys in any case and order, rows from the north.
-Grid ReadAscii(const HeightmapParams& params) {
-  std::ifstream in(params.file);
-  if (!in) Fail(params, 0, "cannot read the file");
-  std::map<std::string, double> header;
-  std::string text;
-  int line = 0;
-  std::streampos data = in.tellg();
-  while (std::getline(in, text)) {
-    std::istringstream words(text);
-    std::string key;
-    double value = 0.0;
-    words >> key;
-    if (key.empty() || !std::isalpha(static_cast<unsigned char>(key[0]))) break;
-    ++line;
-    if (!(words >> value)) Fail(params, line, fmt::format("{} needs a number", key));
-    header[Lower(key)] = value;
-    data = in.tellg();
+/// An ESRI ASCII grid, line by line. Source: ESRI ASCII raster format; the header's keys in any
+/// case and order, rows from the north.
+class AsciiReader {
+ public:
+  explicit AsciiReader(const HeightmapParams& params) : params_(params), in_(params.file) {
+    if (!in_) Fail(params, 0, "cannot read the file");
   }
-  for (const char* key : {"ncols", "nrows", "cellsize"}) {
-    if (!header.contains(key)) Fail(params, line + 1, fmt::format("the header lacks {}", key));
+
+  Grid Read() {
+    ReadHeader();
+    const double spacing_m = Header("cellsize");
+    if (!(spacing_m >= kFinest_m && spacing_m <= kCoarsest_m)) {
+      Fail(params_, line_,
+           fmt::format("cellsize {} is outside [{}, {}] m (is the grid in degrees?)", spacing_m,
+                       kFinest_m, kCoarsest_m));
+    }
+    CheckSquare(params_, std::lround(Header("ncols")), std::lround(Header("nrows")), spacing_m);
+    const int n = static_cast<int>(std::lround(Header("ncols")));
+    Grid heights(n, spacing_m);
+    for (int row = n - 1; row >= 0; --row) {
+      if (!more_) Fail(params_, line_, fmt::format("ends after {} of {} rows", n - 1 - row, n));
+      ReadRow(heights, row);
+      Next();
+    }
+    for (; more_; Next()) {
+      if (text_.find_first_not_of(" \t\r") != std::string::npos)
+        Fail(params_, line_, fmt::format("has more than {} rows", n));
+    }
+    return heights;
   }
-  if (!(header["cellsize"] > 0.0)) Fail(params, line, "cellsize must be positive");
-  CheckSquare(params, std::lround(header["ncols"]), std::lround(header["nrows"]));
-  const int n = static_cast<int>(std::lround(header["ncols"]));
-  in.clear();
-  in.seekg(data);
-  Grid heights(n, header["cellsize"]);
-  for (int row = n - 1; row >= 0; --row) {
-    ++line;
-    if (!std::getline(in, text))
-      Fail(params, line, fmt::format("ends after {} of {} rows", n - 1 - row, n));
-    std::istringstream words(text);
-    for (int column = 0; column < n; ++column) {
-      std::string word;
-      if (!(words >> word)) Fail(params, line, fmt::format("has {} of {} values", column, n));
+
+ private:
+  void Next() {
+    more_ = static_cast<bool>(std::getline(in_, text_));
+    ++line_;
+  }
+
+  void ReadHeader() {
+    static constexpr std::array<std::string_view, 8> kKeys = {
+        "ncols",     "nrows",     "xllcorner", "yllcorner",
+        "xllcenter", "yllcenter", "cellsize",  "nodata_value"};
+    for (Next(); more_; Next()) {
+      std::istringstream words(text_);
+      std::string key, value;
+      words >> key >> value;
+      key = Lower(key);
+      if (std::find(kKeys.begin(), kKeys.end(), key) == kKeys.end()) return;
+      char* end = nullptr;
+      header_[key] = std::strtod(value.c_str(), &end);
+      if (value.empty() || *end != '\0')
+        Fail(params_, line_, fmt::format("{} needs a number", key));
+    }
+  }
+
+  double Header(const char* key) const {
+    if (!header_.contains(key)) Fail(params_, line_, fmt::format("the header lacks {}", key));
+    return header_.at(key);
+  }
+
+  void ReadRow(Grid& heights, int row) {
+    std::istringstream words(text_);
+    std::string word;
+    for (int column = 0; column < heights.nodes; ++column) {
+      if (!(words >> word))
+        Fail(params_, line_, fmt::format("has {} of {} values", column, heights.nodes));
       char* end = nullptr;
       const double value = std::strtod(word.c_str(), &end);
+      if (header_.contains("nodata_value") && value == header_["nodata_value"])
+        Fail(params_, line_, fmt::format("value {} is NODATA; fill the gaps first", column + 1));
       if (*end != '\0' || !std::isfinite(value)) {
-        Fail(params, line,
+        Fail(params_, line_,
              fmt::format("value {} is {}; every height must be a number", column + 1, word));
-      }
-      if (header.contains("nodata_value") && value == header["nodata_value"]) {
-        Fail(params, line, fmt::format("value {} is NODATA; fill the gaps first", column + 1));
       }
       heights.at(column, row) = value;
     }
+    if (words >> word) Fail(params_, line_, fmt::format("has more than {} values", heights.nodes));
   }
-  return heights;
-}
+
+  const HeightmapParams& params_;
+  std::ifstream in_;
+  std::map<std::string, double> header_;
+  std::string text_;
+  int line_ = 0;
+  bool more_ = true;
+};
 
 }  // namespace
 
 Grid ReadHeightmap(const HeightmapParams& params, double png_spacing_m) {
   const std::string extension = Lower(params.file.extension().string());
   if (extension == ".png") return PngReader(params).Read(png_spacing_m);
-  if (extension == ".asc") return ReadAscii(params);
+  if (extension == ".asc") return AsciiReader(params).Read();
   Fail(params, 0, fmt::format("ends in \"{}\"; choices: .asc, .png", extension));
 }
 

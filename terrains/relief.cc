@@ -506,11 +506,13 @@ Grid CoverHighest(const Grid& field, double fraction, double blend_m) {
                    sorted.end());
   const double threshold = fraction >= 1.0 ? -1e300 : sorted[rank];
   for (std::size_t i = 0; i < field.values.size(); ++i)
-    cover.values[i] = field.values[i] >= threshold ? 1.0 : 0.0;
+    cover.values[i] = field.values[i] > threshold ? 1.0 : 0.0;
   // Two passes of a mean over half the blend make an edge that rises over all of it.
   const int radius = static_cast<int>(std::lround(0.25 * blend_m / field.spacing_m));
   return radius > 0 ? BoxBlur(BoxBlur(cover, radius), radius) : cover;
 }
+
+Grid SoftenEdges(const Grid& presence) { return BoxBlur(presence, 1); }
 
 void LimitSlope(Grid& heights, double max_slope_rad) {
   const double step_m = std::tan(max_slope_rad) * heights.spacing_m;

@@ -79,6 +79,9 @@ void AddRoughness(Grid& heights, const RoughnessParams& params, const Grid& othe
 /// with edges that blend over `blend_m`.
 [[nodiscard]] Grid CoverHighest(const Grid& field, double fraction, double blend_m);
 
+/// Ramps of three nodes in place of steps.
+[[nodiscard]] Grid SoftenEdges(const Grid& presence);
+
 /// Lowers peaks until no two neighbours differ by more than the slope allows.
 void LimitSlope(Grid& heights, double max_slope_rad);
 

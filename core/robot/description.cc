@@ -80,12 +80,8 @@ class TreeWalker {
   }
 
   void Walk() {
+    CheckNames();
     Visit(*model_.getRoot(), 0, Pose{});
-    for (const auto& [name, index] : joint_index_) {
-      if (!seen_.contains(name)) {
-        Fail(config_, "legs", fmt::format("the URDF has no movable joint \"{}\"", name));
-      }
-    }
     if (!config_.imu_link.empty() && !imu_on_trunk_) {
       Fail(config_, "imu_link", fmt::format("the trunk has no link \"{}\"", config_.imu_link));
     }
@@ -101,6 +97,46 @@ class TreeWalker {
 
  private:
   Body& BodyAt(int index) { return const_cast<Body&>(robot_.body(index)); }
+
+  /// Every joint and foot that the robot's YAML names is there, once, and of the right kind.
+  void CheckNames() const {
+    std::vector<std::string> joints, links;
+    for (const auto& [name, joint] : model_.joints_) joints.push_back(name);
+    for (const auto& [name, link] : model_.links_) links.push_back(name);
+    std::map<std::string, std::string> keys;  // name to the key that gave it
+    for (const Leg leg : kLegs) {
+      const LegNames names = config_.legs.ToLegArray()[leg];
+      const std::string of_leg = fmt::format("legs.{}.", LegName(leg));
+      for (const auto& [key, name] :
+           {std::pair{"haa", names.haa}, {"hfe", names.hfe}, {"kfe", names.kfe}}) {
+        CheckJoint(of_leg + key, name, joints);
+        CheckOnce(of_leg + key, name, keys);
+      }
+      if (!model_.getLink(names.foot)) {
+        Fail(config_, of_leg + "foot",
+             fmt::format("the URDF has no link \"{}\"{}", names.foot,
+                         DidYouMean(names.foot, links)));
+      }
+      CheckOnce(of_leg + "foot", names.foot, keys);
+    }
+  }
+
+  void CheckJoint(const std::string& key, const std::string& name,
+                  const std::vector<std::string>& joints) const {
+    const auto joint = model_.getJoint(name);
+    if (!joint) {
+      Fail(config_, key,
+           fmt::format("the URDF has no joint \"{}\"{}", name, DidYouMean(name, joints)));
+    }
+    if (joint->type != urdf::Joint::REVOLUTE)
+      Fail(config_, key, fmt::format("\"{}\" must be a revolute joint with limits", name));
+  }
+
+  void CheckOnce(const std::string& key, const std::string& name,
+                 std::map<std::string, std::string>& keys) const {
+    const auto [at, is_new] = keys.try_emplace(name, key);
+    if (!is_new) Fail(config_, key, fmt::format("\"{}\" is {} already", name, at->second));
+  }
 
   void Visit(const urdf::Link& link, int body, const Pose& X_L) {
     if (X_L.p.isZero() && X_L.R.isIdentity() && BodyAt(body).name.empty()) {
@@ -129,8 +165,8 @@ class TreeWalker {
            "is a movable joint that no leg names; it must be fixed or revolute in a leg");
     }
     const int index = found->second;
-    const Leg leg = kLegs[static_cast<std::size_t>((index - 1) / kJointsPerLeg)];
-    const auto j = static_cast<std::size_t>((index - 1) % kJointsPerLeg);
+    const Leg leg = LegOf(index);
+    const auto j = static_cast<std::size_t>(JointOf(index));
     if (body != (j == 0 ? 0 : index - 1)) {
       Fail(config_, joint.name, "does not follow the chain trunk, HAA, HFE, KFE");
     }
@@ -150,7 +186,6 @@ class TreeWalker {
                                   joint.limits->velocity,
                                   1.0,
                                   0.0};
-    seen_.insert({joint.name, index});
     Visit(*child, index, Pose{});
   }
 
@@ -262,7 +297,7 @@ class TreeWalker {
   const RobotConfig& config_;
   const urdf::ModelInterface& model_;
   RobotDescription& robot_;
-  std::map<std::string, int> joint_index_, seen_;
+  std::map<std::string, int> joint_index_;
   std::map<std::string, Leg> foot_leg_;
   bool imu_on_trunk_ = false;
 };
@@ -302,16 +337,19 @@ LegArray<Vec3> RobotDescription::EffortLimits() const {
 
 const Body& RobotDescription::body(int index) const {
   if (index == 0) return trunk;
-  const Leg leg = kLegs[static_cast<std::size_t>((index - 1) / kJointsPerLeg)];
-  return legs[leg].links[static_cast<std::size_t>((index - 1) % kJointsPerLeg)];
+  return legs[LegOf(index)].links[static_cast<std::size_t>(JointOf(index))];
 }
 
-RobotDescription LoadRobot(const RobotConfig& config) {
+RobotDescription ReadRobot(const RobotConfig& config) {
   std::ifstream in(config.urdf);
   if (!in) Fail(config, "urdf", "cannot read the file");
   std::stringstream text;
   text << in.rdbuf();
-  const RobotDescription robot = MakeRobot(config, text.str());
+  return MakeRobot(config, text.str());
+}
+
+RobotDescription LoadRobot(const RobotConfig& config) {
+  const RobotDescription robot = ReadRobot(config);
   for (const Leg leg : kLegs) {
     for (const JointDescription& joint : robot.legs[leg].joints) {
       if (joint.effort_Nm <= 0.0) Fail(config, joint.name, "needs a positive effort limit");

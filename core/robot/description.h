@@ -191,13 +191,24 @@ inline constexpr int kNumBodies = 1 + kNumJoints;
   return 1 + kJointsPerLeg * static_cast<int>(leg) + static_cast<int>(joint);
 }
 
+/// Of a link; not of the trunk.
+[[nodiscard]] constexpr Leg LegOf(int body) noexcept {
+  return kLegs[static_cast<std::size_t>((body - 1) / kJointsPerLeg)];
+}
+[[nodiscard]] constexpr Joint JointOf(int body) noexcept {
+  return static_cast<Joint>((body - 1) % kJointsPerLeg);
+}
+
 /// Loads the URDF that `config` names, and refuses a robot that could not walk.
 /// Errors: ConfigError that names the file and what is missing or wrong.
 [[nodiscard]] RobotDescription LoadRobot(const RobotConfig& config);
 
+/// As LoadRobot, but lets joints without effort through, for inspection.
+[[nodiscard]] RobotDescription ReadRobot(const RobotConfig& config);
+
 /// The robot of a URDF text (a log carries it): a trunk and four legs of HAA, HFE, KFE, fixed links
 /// merged, joints in the house convention.
-/// Errors: as LoadRobot, but joints without effort are let through, for inspection.
+/// Errors: as ReadRobot.
 [[nodiscard]] RobotDescription MakeRobot(const RobotConfig& config, const std::string& urdf_text);
 
 }  // namespace scoria::core

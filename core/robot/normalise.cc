@@ -9,7 +9,8 @@ namespace {
 
 constexpr double kMakersZero_rad = 0.05;
 
-/// Makes `joint` positive about +`axis` of B and moves its zero by `zero_rad` about that axis.
+/// Makes `joint` positive about +`axis` of B and moves its zero by `zero_rad` about that axis, to
+/// the turn in which its limits lie around zero.
 void Redefine(JointDescription& joint, double sign, double zero_rad) {
   if (std::abs(zero_rad) < kMakersZero_rad) zero_rad = 0.0;
   const double urdf_zero_rad = sign * zero_rad;
@@ -17,10 +18,11 @@ void Redefine(JointDescription& joint, double sign, double zero_rad) {
   joint.axis_J *= sign;
   const double a = sign * (joint.lower_rad - urdf_zero_rad);
   const double b = sign * (joint.upper_rad - urdf_zero_rad);
-  joint.lower_rad = std::min(a, b);
-  joint.upper_rad = std::max(a, b);
+  const double turns_rad = 2.0 * EIGEN_PI * std::round(0.5 * (a + b) / (2.0 * EIGEN_PI));
+  joint.lower_rad = std::min(a, b) - turns_rad;
+  joint.upper_rad = std::max(a, b) - turns_rad;
   joint.urdf_sign = sign;
-  joint.urdf_zero_rad = urdf_zero_rad;
+  joint.urdf_zero_rad = urdf_zero_rad + sign * turns_rad;
 }
 
 /// @returns +1 or -1 as the joint turns about +e or -e, 0 if about neither.
@@ -61,11 +63,54 @@ std::string NormaliseLeg(LegDescription& leg) {
   return "";
 }
 
+/// Turns the frames of a leg's links parallel to the trunk's at q = 0, whatever the URDF chose.
+void AlignFrames(RobotDescription& robot, Leg which) {
+  LegDescription& leg = robot.legs[which];
+  for (std::size_t j = 0; j < 3; ++j) {
+    JointDescription& joint = leg.joints[j];
+    const Mat3 R = joint.R_PJ;
+    if (R.isIdentity(0.0)) continue;
+    joint.R_PJ.setIdentity();
+    joint.axis_J = R * joint.axis_J;
+    Body& link = leg.links[j];
+    link.p_LC = R * link.p_LC;
+    link.I_C_L = R * link.I_C_L * R.transpose();
+    if (j < 2) {
+      leg.joints[j + 1].p_PJ = R * leg.joints[j + 1].p_PJ;
+      leg.joints[j + 1].R_PJ = R * leg.joints[j + 1].R_PJ;
+    } else {
+      leg.p_LF = R * leg.p_LF;
+    }
+    const int body = BodyIndex(which, static_cast<Joint>(j));
+    for (std::vector<Shape>* shapes : {&robot.collisions, &robot.visuals}) {
+      for (Shape& shape : *shapes) {
+        if (shape.body != body) continue;
+        shape.p_LG = R * shape.p_LG;
+        shape.R_LG = R * shape.R_LG;
+      }
+    }
+  }
+}
+
+std::string TooShort(const LegDescription& leg, Leg which) {
+  for (const auto& [name, length_m] :
+       {std::pair{"thigh", ThighLength(leg)}, {"shank", ShankLength(leg)}}) {
+    if (length_m > leg.foot_radius_m) continue;
+    return fmt::format("the {} of {} is {:.4f} m long, less than its foot's radius of {:.4f} m",
+                       name, LegName(which), length_m, leg.foot_radius_m);
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string NormaliseJoints(RobotDescription& robot) {
   for (const Leg leg : kLegs) {
-    const std::string problem = NormaliseLeg(robot.legs[leg]);
+    std::string problem = NormaliseLeg(robot.legs[leg]);
+    if (problem.empty()) {
+      AlignFrames(robot, leg);
+      problem = TooShort(robot.legs[leg], leg);
+    }
     if (!problem.empty()) return problem;
     const Vec3& hip = robot.legs[leg].joints[0].p_PJ;
     const bool placed = (hip.x() > 0.0) == IsFront(leg) && (hip.y() > 0.0) == IsLeft(leg);
@@ -99,11 +144,30 @@ void DeriveDefaults(RobotDescription& robot) {
   if (config.stance_front_m.isZero()) config.stance_front_m = below_thigh(front);
   if (config.stance_hind_m.isZero()) config.stance_hind_m = below_thigh(hind);
   if (config.lying_pose_rad.isZero()) {
-    constexpr double kClear_rad = 0.05;
-    const double knee = front.joints[2].lower_rad + kClear_rad;
+    constexpr double kClear_rad = 0.05, kFolded_rad = 2.7;
+    const JointDescription& knee = front.joints[2];
+    const double way = KneeWay(front);
+    const double limit = way < 0.0 ? knee.lower_rad : knee.upper_rad;
+    const double folded = way * std::min(kFolded_rad, std::abs(limit) - kClear_rad);
     config.lying_pose_rad = {
-        0.0, std::clamp(-0.5 * knee, front.joints[1].lower_rad, front.joints[1].upper_rad), knee};
+        0.0, std::clamp(-0.5 * folded, front.joints[1].lower_rad, front.joints[1].upper_rad),
+        folded};
   }
+}
+
+double KneeWay(const LegDescription& leg) { return leg.joints[2].lower_rad < -0.5 ? -1.0 : 1.0; }
+
+Vec3 LyingPose(const RobotDescription& robot, Leg leg) {
+  const Vec3& pose = robot.config.lying_pose_rad;
+  const LegDescription& l = robot.legs[leg];
+  // A leg whose knee bends the other way folds the other way.
+  const double mirror = KneeWay(l) == std::copysign(1.0, pose.z()) ? 1.0 : -1.0;
+  Vec3 out(pose.x(), mirror * pose.y(), mirror * pose.z());
+  for (std::size_t j = 0; j < 3; ++j) {
+    double& angle = out[static_cast<Eigen::Index>(j)];
+    angle = std::clamp(angle, l.joints[j].lower_rad, l.joints[j].upper_rad);
+  }
+  return out;
 }
 
 }  // namespace scoria::core

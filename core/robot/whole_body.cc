@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/LU>
 
@@ -191,11 +192,16 @@ LegKinematics CalcLegKinematics(const LegDescription& leg, const Vec3& q) noexce
 Vec3 SolveLegIk(const LegDescription& leg, const Vec3& p_BF, const Vec3& q_guess) noexcept {
   constexpr int kMaxIterations = 60;
   constexpr double kDamping_m = 1e-3, kTolerance_m = 1e-10, kMaxStep_rad = 0.3;
-  Vec3 q = q_guess;
+  Vec3 q = q_guess, best = q_guess;
+  double best_m = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMaxIterations; ++i) {
     const LegKinematics k = CalcLegKinematics(leg, q);
     const Vec3 error = p_BF - k.p_BF;
-    if (error.norm() < kTolerance_m) break;
+    if (error.norm() < best_m) {
+      best_m = error.norm();
+      best = q;
+    }
+    if (best_m < kTolerance_m) break;
     const double damping = std::min(kDamping_m, error.norm());  // vanishes as the root nears
     const Mat3 A = k.J * k.J.transpose() + damping * damping * Mat3::Identity();
     Vec3 step = k.J.transpose() * A.inverse() * error;
@@ -206,7 +212,7 @@ Vec3 SolveLegIk(const LegDescription& leg, const Vec3& p_BF, const Vec3& q_guess
       angle = std::clamp(angle, leg.joints[j].lower_rad, leg.joints[j].upper_rad);
     }
   }
-  return q;
+  return best;
 }
 
 double CalcKineticEnergy(const WholeBody& wb) noexcept {

@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include "core/files.h"
+#include "core/math/so3.h"
 #include "core/robot/inspect.h"
 #include "core/robot/kinematics.h"
 #include "core/robot/mesh.h"
+#include "core/robot/normalise.h"
 #include "core/robot/whole_body.h"
 #include "tests/support/robots.h"
 
@@ -69,12 +71,18 @@ TEST(Kinematics, LinkPosesAgreeWithTheWholeBodyModel) {
 
 TEST(RobotErrors, SayWhatIsWrongWithAUrdf) {
   const std::string& urdf = test::Go2().urdf_text;
-  EXPECT_EQ(ErrorOf(urdf, "<joint name=\"FL_calf_joint\"", "<joint name=\"FL_knee\""),
-            "go2.urdf: FL_knee: is a movable joint that no leg names; it must be fixed or revolute "
-            "in a leg");
-  EXPECT_EQ(ErrorOf(urdf, "<joint name=\"FL_calf_joint\" type=\"revolute\"",
-                    "<joint name=\"FL_calf_joint\" type=\"fixed\""),
-            "go2.urdf: FL_foot: is named as a foot, but is not fixed to its leg's KFE link");
+  EXPECT_EQ(ErrorOf(urdf, "<joint name=\"FL_calf_joint\"", "<joint name=\"FL_claf_joint\""),
+            "go2.urdf: legs.FL.kfe: the URDF has no joint \"FL_calf_joint\" (did you mean "
+            "\"FR_calf_joint\"?)");
+  for (const char* type : {"fixed", "continuous"}) {
+    EXPECT_EQ(ErrorOf(urdf, "<joint name=\"FL_calf_joint\" type=\"revolute\"",
+                      fmt::format("<joint name=\"FL_calf_joint\" type=\"{}\"", type)),
+              "go2.urdf: legs.FL.kfe: \"FL_calf_joint\" must be a revolute joint with limits");
+  }
+  EXPECT_EQ(ErrorOf(urdf, "<joint name=\"imu_joint\" type=\"fixed\"",
+                    "<joint name=\"imu_joint\" type=\"continuous\""),
+            "go2.urdf: imu_joint: is a movable joint that no leg names; it must be fixed or "
+            "revolute in a leg");
   EXPECT_EQ(ErrorOf(urdf, "mass value=\"6.921\"", "mass value=\"-1\""),
             "go2.urdf: base_link: mass -1 must be >= 0");
   EXPECT_EQ(
@@ -98,6 +106,34 @@ TEST(RobotErrors, SayWhatIsWrongWithAUrdf) {
             "go2.urdf: FL_thigh_joint: does not follow the chain trunk, HAA, HFE, KFE");
   EXPECT_EQ(ErrorOf(urdf, "</robot>", ""),
             "go2.urdf: urdf: not a valid URDF: Error reading end tag.");
+}
+
+TEST(RobotErrors, SayWhatIsWrongWithTheNames) {
+  const auto error = [](auto change) {
+    RobotConfig config = test::Go2().config;
+    config.urdf = "go2.urdf";
+    change(config);
+    try {
+      (void)MakeRobot(config, test::Go2().urdf_text);
+    } catch (const ConfigError& e) {
+      return std::string(e.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_EQ(error([](RobotConfig& c) { c.legs.fl.hfe = "FL_tigh_joint"; }),
+            "go2.urdf: legs.FL.hfe: the URDF has no joint \"FL_tigh_joint\" (did you mean "
+            "\"FL_thigh_joint\"?)");
+  EXPECT_EQ(error([](RobotConfig& c) { c.legs.fr.foot = "FL_foot"; }),
+            "go2.urdf: legs.FR.foot: \"FL_foot\" is legs.FL.foot already");
+  EXPECT_EQ(error([](RobotConfig& c) { c.legs.fr.kfe = "FL_calf_joint"; }),
+            "go2.urdf: legs.FR.kfe: \"FL_calf_joint\" is legs.FL.kfe already");
+  EXPECT_EQ(error([](RobotConfig& c) { c.legs.fl.foot = "FL_toe"; }),
+            "go2.urdf: legs.FL.foot: the URDF has no link \"FL_toe\"");
+  EXPECT_EQ(error([](RobotConfig& c) { std::swap(c.legs.fl, c.legs.hl); }),
+            "go2.urdf: legs: FL has its hip at x -0.193, y 0.046 of the trunk, where another leg "
+            "should be");
+  EXPECT_EQ(error([](RobotConfig& c) { c.imu_link = "gyro"; }),
+            "go2.urdf: imu_link: the trunk has no link \"gyro\"");
 }
 
 RobotConfig ConfigOf(const std::string& path) {
@@ -164,6 +200,44 @@ TEST(OtherRobots, JointsOfAnySignAndZeroBecomeTheHouses) {
   EXPECT_EQ(kid.legs[Leg::kFR].joints[0].urdf_sign, -1.0);
   EXPECT_NEAR(kid.legs[Leg::kFR].joints[0].urdf_zero_rad, 0.3, 1e-6);
   EXPECT_EQ(kid.legs[Leg::kFL].foot_radius_m, 0.014);
+}
+
+// The frames of links are the URDF's own business: with every joint axis called z, as CAD exports
+// have it, the same robot has the same lengths, stance and masses.
+TEST(OtherRobots, LinkFramesMayPointAnywhere) {
+  RobotConfig config = test::Go2().config;
+  config.nominal_height_m = config.max_leg_length_m = 0.0;
+  config.stance_front_m = config.stance_hind_m = config.lying_pose_rad = Vec3::Zero();
+  const RobotDescription plain = MakeRobot(config, test::Go2().urdf_text);
+  RobotDescription turned = plain;
+  const Mat3 R = RotationFromRpy({0.4, -0.7, 1.1});  // each link frame turned against its parent's
+  for (const Leg leg : kLegs) {
+    LegDescription& l = turned.legs[leg];
+    Mat3 R_before = Mat3::Identity();  // of the parent's frame
+    for (std::size_t j = 0; j < 3; ++j) {
+      const Mat3 R_LNew = R_before * R;
+      l.joints[j].p_PJ = R_before.transpose() * l.joints[j].p_PJ;
+      l.joints[j].R_PJ = R_before.transpose() * R_LNew;
+      l.joints[j].axis_J = R_LNew.transpose() * l.joints[j].axis_J;
+      l.links[j].p_LC = R_LNew.transpose() * l.links[j].p_LC;
+      l.links[j].I_C_L = R_LNew.transpose() * l.links[j].I_C_L * R_LNew;
+      R_before = R_LNew;
+    }
+    l.p_LF = R_before.transpose() * l.p_LF;
+  }
+  ASSERT_EQ(NormaliseJoints(turned), "");
+  DeriveDefaults(turned);
+  EXPECT_NEAR(ThighLength(turned.legs[Leg::kFL]), 0.213, 1e-9);
+  const WholeBodyModel a(plain, 9.81), b(turned, 9.81);
+  Rng rng(5, 0, Stream::kSensor);
+  for (int i = 0; i < 10; ++i) {
+    const RobotState s = test::RandomState(rng);
+    WholeBody wa, wb;
+    a.Calc(s, wa);
+    b.Calc(s, wb);
+    EXPECT_LT((AssembleMassMatrix(wa) - AssembleMassMatrix(wb)).norm(), 1e-9);
+    EXPECT_LT((AssembleBias(wa) - AssembleBias(wb)).norm(), 1e-8);
+  }
 }
 
 TEST(OtherRobots, MeshesAreDrawnAndCollideAsTheirBox) {

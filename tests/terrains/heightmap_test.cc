@@ -42,7 +42,7 @@ class Heightmap : public ::testing::Test {
     HeightmapParams params;
     params.file = file;
     try {
-      (void)ReadHeightmap(params, 0.05);
+      (void)ReadHeightmap(params, 0.25);
     } catch (const core::ConfigError& e) {
       const std::string text = e.what(), prefix = folder.path().string() + "/";
       return text.starts_with(prefix) ? text.substr(prefix.size()) : text;
@@ -68,9 +68,9 @@ TEST_F(Heightmap, PngKeepsItsSixteenBitsAndItsNorth) {
   params.file = WritePng("ramp.png", 32, 32, true);
   params.black_m = -1.0;
   params.white_m = 1.0;
-  const Grid heights = ReadHeightmap(params, 0.05);
+  const Grid heights = ReadHeightmap(params, 0.25);
   EXPECT_EQ(heights.nodes, 32);
-  EXPECT_EQ(heights.spacing_m, 0.05);
+  EXPECT_EQ(heights.spacing_m, 0.25);
   EXPECT_NEAR(heights.at(3, 31), -1.0 + 2.0 * 3000 / 65535, 1e-12);  // first line: north
   EXPECT_NEAR(heights.at(3, 0), -1.0 + 2.0 * 3031 / 65535, 1e-12);
 }
@@ -78,7 +78,7 @@ TEST_F(Heightmap, PngKeepsItsSixteenBitsAndItsNorth) {
 TEST_F(Heightmap, AsciiGridCarriesItsOwnSpacing) {
   HeightmapParams params;
   params.file = Write("ok.asc", Ascii(20, 20, "2.25"));
-  const Grid heights = ReadHeightmap(params, 0.05);
+  const Grid heights = ReadHeightmap(params, 0.25);
   EXPECT_EQ(heights.spacing_m, 0.5);
   EXPECT_EQ(heights.at(3, 17), 2.25);  // third row from the north
   EXPECT_EQ(heights.at(0, 0), 1.5);
@@ -113,8 +113,49 @@ TEST_F(Heightmap, EveryErrorNamesFileAndRule) {
             "gap.asc:9:1: heightmap: value 4 is NODATA; fill the gaps first");
   EXPECT_EQ(ErrorOf(Write("head.asc", Ascii(20, 20, "1", ""))),
             "head.asc:5:1: heightmap: the header lacks cellsize");
-  EXPECT_EQ(ErrorOf(Write("short.asc", "ncols 20\nnrows 20\ncellsize 1\n1 2 3\n")),
+  EXPECT_EQ(ErrorOf(Write("short.asc", "ncols 20\nnrows 20\ncellsize 0.5\n1 2 3\n")),
             "short.asc:4:1: heightmap: has 3 of 20 values");
+  EXPECT_EQ(ErrorOf(Write("deg.asc", Ascii(20, 20, "1", "cellsize 0.000277\n"))),
+            "deg.asc:6:1: heightmap: cellsize 0.000277 is outside [0.005, 0.5] m (is the grid in "
+            "degrees?)");
+  EXPECT_EQ(ErrorOf(Write("tiny.asc", Ascii(20, 20, "1", "cellsize 0.1\n"))),
+            "tiny.asc: heightmap: is 2 m wide; a robot needs at least 6 m");
+  EXPECT_EQ(ErrorOf(Write("word.asc", "ncols many\n")),
+            "word.asc:1:1: heightmap: ncols needs a number");
+  EXPECT_EQ(ErrorOf(Write("more.asc", Ascii(20, 20, "1") + "1 2 3\n")),
+            "more.asc:27:1: heightmap: has more than 20 rows");
+  EXPECT_EQ(ErrorOf(Write("wider.asc", "ncols 16\nnrows 16\ncellsize 0.5\n" +
+                                           std::string("1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1\n"))),
+            "wider.asc:4:1: heightmap: has more than 16 values");
+  EXPECT_EQ(ErrorOf(Write("first.asc", "ncols 16\nnrows 16\ncellsize 0.5\nnan 1 1\n")),
+            "first.asc:4:1: heightmap: value 1 is nan; every height must be a number");
+  const std::string whole = Ascii(20, 20, "1");
+  EXPECT_EQ(ErrorOf(Write("cut.asc", whole.substr(0, whole.size() - 81))),
+            "cut.asc:26:1: heightmap: ends after 19 of 20 rows");
+}
+
+std::string TerrainError(const std::string& yaml) {
+  try {
+    (void)core::ReadConfig<TerrainParams>(core::ParseConfig(yaml, "my.yaml"));
+  } catch (const core::ConfigError& e) {
+    return e.what();
+  }
+  return "no error";
+}
+
+TEST(TerrainYaml, WhatCannotBeBuiltIsRefused) {
+  const auto has = [](const std::string& yaml, const std::string& text) {
+    EXPECT_NE(TerrainError(yaml).find(text), std::string::npos) << TerrainError(yaml);
+  };
+  has("patches: [{name: sand, fraction: 0.1, where: hollows}]\n"
+      "ripples: {amplitude_m: 0.01, material: sand}\n",
+      "ripples.material: unknown \"sand\"; the patches that lie anywhere are: none");
+  has("patches: [{name: a, fraction: 0.8}, {name: b, fraction: 0.5}]\n",
+      "patches: fractions sum to 1.3, more than 1");
+  has("resolution_m: 0.5\nropes: {amplitude_m: 0.02}\n",
+      "ropes.max_wavelength_m must be at least 2 resolution_m");
+  has("size_m: 1\nresolution_m: 0.1\n", "size_m must be at least 16 resolution_m");
+  has("gullies: {min_depth_m: 1, max_depth_m: 0.5}\n", "minima must not exceed maxima");
 }
 
 TEST(TerrainYaml, UnknownMaterialNamesTheChoices) {
@@ -125,9 +166,10 @@ TEST(TerrainYaml, UnknownMaterialNamesTheChoices) {
         "my.yaml"));
     FAIL();
   } catch (const core::ConfigError& e) {
-    EXPECT_NE(std::string(e.what()).find(
-                  "ripples.material: unknown \"ash\"; the patches here are: lapilli, crust"),
-              std::string::npos)
+    EXPECT_NE(
+        std::string(e.what()).find(
+            "ripples.material: unknown \"ash\"; the patches that lie anywhere are: lapilli, crust"),
+        std::string::npos)
         << e.what();
   }
 }
