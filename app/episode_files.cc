@@ -75,6 +75,7 @@ EpisodeReport RunToFolder(const Scenario& scenario, const RunOptions& options) {
         {"mpc_failures", r.counters.mpc_failures},
         {"wbc_failures", r.counters.wbc_failures},
         {"wbc_torque_drops", r.counters.wbc_torque_drops}}},
+      {"unconverged_physics_steps", r.unconverged_steps},
       {"real_time_factor", report.real_time_factor},
       {"physics_us_per_step", r.physics_s / simulated_s * scenario.physics.step_s * 1e6},
       {"controller_us_per_step", r.controller_s / simulated_s * scenario.physics.step_s * 1e6},

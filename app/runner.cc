@@ -84,6 +84,7 @@ class Episode {
         result_.end == EpisodeEnd::kCompleted || result_.end == EpisodeEnd::kTimedOut;
     if (!ordinary) Announce("end", std::string(core::EnumName(result_.end)));
     result_.counters = counters_so_far();
+    result_.unconverged_steps = world_.unconverged_steps();
     return result_;
   }
 

@@ -36,6 +36,7 @@ struct EpisodeResult {
   int falls = 0, stuck = 0;
   std::uint64_t state_hash = 0;  // over every state that was hashed on the way
   controller::ControllerCounters counters;
+  std::int64_t unconverged_steps = 0;  // of the physics' contact solver
   double physics_s = 0.0,
          controller_s = 0.0;  // wall clock of the two, without set-up and recording
 };

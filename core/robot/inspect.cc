@@ -5,6 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "core/robot/mesh.h"
 #include "core/robot/normalise.h"
 
 namespace scoria::core {
@@ -78,6 +79,38 @@ void CheckMirror(const RobotDescription& robot, Leg left, Leg right,
     tell("foot radius", l.foot_radius_m, r.foot_radius_m, "m");
 }
 
+/// What the robot's YAML says against what its legs can do.
+void CheckConfig(const RobotDescription& robot, std::vector<std::string>& out) {
+  const RobotConfig& c = robot.config;
+  const LegDescription& leg = robot.legs[Leg::kFL];
+  const double length_m = ThighLength(leg) + ShankLength(leg);
+  if (c.nominal_height_m > length_m)
+    out.push_back(fmt::format("nominal_height_m {:.3f} is beyond thigh and shank, {:.3f} m",
+                              c.nominal_height_m, length_m));
+  if (c.max_leg_length_m > length_m)
+    out.push_back(fmt::format("max_leg_length_m {:.3f} is beyond thigh and shank, {:.3f} m",
+                              c.max_leg_length_m, length_m));
+  if (c.stance_front_m.y() <= 0.0 || c.stance_hind_m.y() <= 0.0)
+    out.push_back("stance_front_m and stance_hind_m are of the left legs: y must be positive");
+  if (c.stance_hind_m.x() >= c.stance_front_m.x())
+    out.push_back("stance_hind_m lies before stance_front_m");
+  for (int j = 0; j < kJointsPerLeg; ++j) {
+    const JointDescription& joint = leg.joints[static_cast<std::size_t>(j)];
+    if (c.lying_pose_rad[j] >= joint.lower_rad && c.lying_pose_rad[j] <= joint.upper_rad) continue;
+    out.push_back(fmt::format("lying_pose_rad: {} of {:.2f} is outside [{:.2f}, {:.2f}]",
+                              kJointNames[static_cast<std::size_t>(j)], c.lying_pose_rad[j],
+                              joint.lower_rad, joint.upper_rad));
+  }
+}
+
+void CheckVisuals(const RobotDescription& robot, std::vector<std::string>& out) {
+  for (const Shape& shape : robot.visuals) {
+    if (shape.kind == Shape::Kind::kMesh && !LoadMesh(shape.mesh, shape.size_m))
+      out.push_back(
+          fmt::format("visual mesh {} cannot be read and is not drawn", shape.mesh.string()));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> FindSuspicions(const RobotDescription& robot) {
@@ -93,6 +126,8 @@ std::vector<std::string> FindSuspicions(const RobotDescription& robot) {
                                   joint.velocity_radps));
     }
   }
+  CheckConfig(robot, out);
+  CheckVisuals(robot, out);
   CheckMirror(robot, Leg::kFL, Leg::kFR, out);
   CheckMirror(robot, Leg::kHL, Leg::kHR, out);
   return out;

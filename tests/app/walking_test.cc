@@ -142,8 +142,10 @@ TEST(Push, FifteenNewtonSecondsFromTheSideAreSurvived) {
 }
 
 TEST(Energy, LedgerClosesToAPercentOfMotorWork) {
-  for (const char* name : {"flat", "vulcano"}) {
-    const Outcome o = Walk(test::LoadScenario(name, {"duration_s=15"}));
+  for (const auto& [name, ground] :
+       {std::pair{"flat", "elastic"}, {"vulcano", "elastic"}, {"vulcano", "plastic"}}) {
+    const Outcome o = Walk(
+        test::LoadScenario(name, {"duration_s=15", fmt::format("physics.ground.type={}", ground)}));
     const analysis::EnergyBudget& b = o.metrics.budget;
     EXPECT_GT(b.motor_J, 50.0) << name;
     EXPECT_LT(b.error_J, 0.01 * b.motor_J) << name;

@@ -270,5 +270,42 @@ TEST(Inspect, NamesWhatLooksWrong) {
             "FL and FR are no mirror images: mass of the HFE link 2 and 1.152 kg");
 }
 
+TEST(Inspect, NamesWhatTheYamlGetsWrong) {
+  RobotConfig config = test::Go2().config;
+  config.nominal_height_m = 1.5;
+  config.lying_pose_rad = {0.0, 9.0, -2.0};
+  config.stance_front_m.y() = -0.15;
+  const std::string found =
+      fmt::format("{}", fmt::join(FindSuspicions(MakeRobot(config, test::Go2().urdf_text)), "; "));
+  EXPECT_EQ(
+      found,
+      "nominal_height_m 1.500 is beyond thigh and shank, 0.426 m; stance_front_m and "
+      "stance_hind_m are of the left legs: y must be positive; lying_pose_rad: HFE of 9.00 is "
+      "outside [-1.57, 3.49]");
+}
+
+/// Meshes of every kind that the loader promises.
+TEST(Mesh, ReadsObjAndColladaInMetres) {
+  test::TemporaryFolder folder;
+  WriteText(folder.path() / "t.obj", "v 0 0 0\nv 2 0 0\nv 0 3 0\nf 1 2 3\n");
+  WriteText(folder.path() / "t.dae",
+            R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema"
+ version="1.4.1"><asset><unit name="millimeter" meter="0.001"/><up_axis>Z_UP</up_axis></asset>
+<library_geometries><geometry id="g"><mesh><source id="p"><float_array id="a" count="9">0 0 0 2000 0 0
+ 0 3000 0</float_array><technique_common><accessor source="#a" count="3" stride="3"><param name="X"
+ type="float"/><param name="Y" type="float"/><param name="Z" type="float"/></accessor>
+</technique_common></source><vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles></mesh>
+</geometry></library_geometries><library_visual_scenes><visual_scene id="s"><node><instance_geometry
+ url="#g"/></node></visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/>
+</scene></COLLADA>)");
+  for (const char* name : {"t.obj", "t.dae"}) {
+    const auto bounds = CalcMeshBounds(folder.path() / name, Vec3(1.0, 1.0, 1.0));
+    ASSERT_TRUE(bounds.has_value()) << name;
+    EXPECT_LT((bounds->high - Vec3(2.0, 3.0, 0.0)).norm(), 1e-6) << name;
+  }
+  EXPECT_FALSE(LoadMesh(folder.path() / "none.stl", Vec3::Ones()).has_value());
+}
+
 }  // namespace
 }  // namespace scoria::core
