@@ -38,10 +38,10 @@ class WalkSwitch {
 class SimpleGait final : public GaitSequencer {
  public:
   explicit SimpleGait(const SgsParams& params) noexcept
-      : timing_{params.period_s, params.duty, ToLegArray(params.offset)}, walk_(params.stand) {}
+      : timing_(params.Timing()), walk_(params.stand) {}
 
   ContactPlan Plan(const GaitInput& in) noexcept override {
-    const bool walking = walk_.Update(in.command, in.v_xy_mps);
+    const bool walking = timing_.duty < 1.0 && walk_.Update(in.command, in.v_xy_mps);
     engine_.Update(timing_, in.dt_s, walking, LegArray<bool>(false));
     return engine_.Predict(in.horizon, in.stage_s);
   }
@@ -97,6 +97,41 @@ class MatchedGait final : public GaitSequencer {
 };
 
 }  // namespace
+
+GaitTiming TimingOf(NamedGait gait) noexcept {
+  constexpr double kGallop = 0.8571, kGallopHind = 0.3571;
+  switch (gait) {
+    case NamedGait::kStand:
+      return {0.5, 1.0, {0.0, 0.0, 0.0, 0.0}};
+    case NamedGait::kStaticWalk:
+      return {1.25, 0.8, {0.0, 0.5, 0.75, 0.25}};
+    case NamedGait::kWalkingTrot:
+      return {0.5, 0.6, {0.0, 0.5, 0.5, 0.0}};
+    case NamedGait::kTrot:
+      return {0.5, 0.5, {0.0, 0.5, 0.5, 0.0}};
+    case NamedGait::kFlyingTrot:
+      return {0.4, 0.4, {0.0, 0.5, 0.5, 0.0}};
+    case NamedGait::kPace:
+      return {0.35, 0.5, {0.0, 0.5, 0.0, 0.5}};
+    case NamedGait::kBound:
+      return {0.4, 0.4, {0.0, 0.0, 0.5, 0.5}};
+    case NamedGait::kRotaryGallop:
+      return {0.4, 0.2, {0.0, kGallop, kGallopHind, 0.5}};
+    case NamedGait::kTraverseGallop:
+      return {0.5, 0.2, {0.0, kGallop, kGallopHind, 0.5}};
+    case NamedGait::kPronk:
+      return {0.5, 0.5, {0.0, 0.0, 0.0, 0.0}};
+  }
+  return {};
+}
+
+GaitTiming SgsParams::Timing() const noexcept {
+  GaitTiming timing = TimingOf(gait);
+  timing.period_s = period_s.value_or(timing.period_s);
+  timing.duty = duty.value_or(timing.duty);
+  if (offset) timing.offset = ToLegArray(*offset);
+  return timing;
+}
 
 GaitTiming StrideLaw::Timing(double v_mps, double h_m) const noexcept {
   const double v = std::max(v_mps, min_speed_mps), h = std::max(h_m, 0.05);

@@ -3,6 +3,9 @@
 
 #include <array>
 #include <memory>
+#include <optional>
+#include <string_view>
+#include <utility>
 #include <variant>
 
 #include "controller/gait/phase_engine.h"
@@ -57,20 +60,51 @@ struct StrideLaw {
   [[nodiscard]] GaitTiming Timing(double v_mps, double h_m) const noexcept;
 };
 
-/// Simple gait sequencer: constant timing. Default: the paper's baseline trot.
+/// Gaits by name. Source: the reference framework's table; `walking_trot` is the paper's baseline.
+enum class NamedGait {
+  kStand,
+  kStaticWalk,
+  kWalkingTrot,
+  kTrot,
+  kFlyingTrot,
+  kPace,
+  kBound,
+  kRotaryGallop,
+  kTraverseGallop,
+  kPronk
+};
+constexpr std::array<std::pair<NamedGait, std::string_view>, 10> EnumNames(NamedGait) {
+  return {{{NamedGait::kStand, "stand"},
+           {NamedGait::kStaticWalk, "static_walk"},
+           {NamedGait::kWalkingTrot, "walking_trot"},
+           {NamedGait::kTrot, "trot"},
+           {NamedGait::kFlyingTrot, "flying_trot"},
+           {NamedGait::kPace, "pace"},
+           {NamedGait::kBound, "bound"},
+           {NamedGait::kRotaryGallop, "rotary_gallop"},
+           {NamedGait::kTraverseGallop, "traverse_gallop"},
+           {NamedGait::kPronk, "pronk"}}};
+}
+[[nodiscard]] GaitTiming TimingOf(NamedGait gait) noexcept;
+
+/// Simple gait sequencer: constant timing, of a named gait, of which single numbers may be
+/// replaced.
 struct SgsParams {
   static constexpr const char* kType = "sgs";
-  double period_s = 0.5;
-  double duty = 0.6;
-  std::array<double, 4> offset = {0.0, 0.5, 0.5, 0.0};
+  NamedGait gait = NamedGait::kWalkingTrot;
+  std::optional<double> period_s, duty;
+  std::optional<std::array<double, 4>> offset;
   StandParams stand;
   template <class Archive>
   void Serialize(Archive& a) {
-    a.Field("period_s", period_s, {.min = 0.1, .max = 5.0});
-    a.Field("duty", duty, {.min = 0.1, .max = 0.98});
-    a.Field("offset", offset, {.min = 0.0, .max = 1.0, .doc = "FL, FR, HL, HR"});
+    a.Field("gait", gait);
+    a.Field("period_s", period_s, {.min = 0.1, .max = 5.0, .doc = "in place of the gait's own"});
+    a.Field("duty", duty, {.min = 0.1, .max = 1.0, .doc = "in place of the gait's own; 1 stands"});
+    a.Field("offset", offset,
+            {.min = 0.0, .max = 1.0, .doc = "FL, FR, HL, HR, in place of the gait's own"});
     a.Field("stand", stand);
   }
+  [[nodiscard]] GaitTiming Timing() const noexcept;
 };
 
 /// Adaptive gait sequencer of the paper.
