@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "terrains/heightmap.h"
+#include "terrains/relief.h"
+#include "terrains/spectrum.h"
 
 namespace scoria::terrains {
 namespace {

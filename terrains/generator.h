@@ -7,7 +7,7 @@
 
 #include "terrains/heightfield.h"
 #include "terrains/params.h"
-#include "terrains/relief.h"
+#include "terrains/rocks.h"
 
 namespace scoria::terrains {
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "terrains/relief.h"
+#include "terrains/grid.h"
+#include "terrains/params.h"
 
 namespace scoria::terrains {
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/world.h"
-#include "terrains/relief.h"
+#include "terrains/rocks.h"
 #include "tests/support/robots.h"
 
 namespace scoria::sim {

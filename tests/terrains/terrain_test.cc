@@ -7,6 +7,7 @@
 
 #include "core/rng.h"
 #include "terrains/generator.h"
+#include "terrains/relief.h"
 #include "tests/support/robots.h"
 
 namespace scoria::terrains {
