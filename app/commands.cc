@@ -210,19 +210,33 @@ void AddBench(CLI::App& app) {
     nlohmann::json json = nlohmann::json::array();
     for (const QpBenchmark& b : BenchmarkQpSets(o->folder, o->repeats)) {
       json.push_back({{"file", b.file},
+                      {"kind", b.kind},
                       {"problems", b.problems},
                       {"solved", b.solved},
                       {"worst_error", b.worst_error},
                       {"worst_violation_N", b.worst_violation},
                       {"median_us", b.median_us},
                       {"p99_us", b.p99_us},
-                      {"iterations", b.mean_iterations}});
+                      {"iterations", b.mean_iterations},
+                      {"warm_problems", b.warm_problems},
+                      {"warm_solved", b.warm_solved},
+                      {"warm_median_us", b.warm_median_us},
+                      {"warm_p99_us", b.warm_p99_us},
+                      {"warm_iterations", b.warm_mean_iterations}});
       if (!o->json) {
         fmt::print(
-            "{:20} {}/{} solved, worst error {:.1e}, violation {:.1e} N, {:.1f} us median, {:.1f} "
+            "{:16} {:16} {}/{} solved, worst error {:.1e}, violation {:.1e} N, {:.1f} us median, "
+            "{:.1f} "
             "us p99, {:.1f} iterations\n",
-            b.file, b.solved, b.problems, b.worst_error, b.worst_violation, b.median_us, b.p99_us,
-            b.mean_iterations);
+            b.file, b.kind, b.solved, b.problems, b.worst_error, b.worst_violation, b.median_us,
+            b.p99_us, b.mean_iterations);
+        if (b.warm_problems > 0) {
+          fmt::print(
+              "{:33} {}/{} solved from the tick before, {:.1f} us median, {:.1f} us p99, {:.1f} "
+              "iterations\n",
+              "", b.warm_solved, b.warm_problems, b.warm_median_us, b.warm_p99_us,
+              b.warm_mean_iterations);
+        }
       }
     }
     if (o->json) fmt::print("{}\n", json.dump(2));

@@ -23,7 +23,6 @@ class QpSet {
   struct Mpc {
     controller::OcpQp qp;
     std::array<Vec12, kMaxHorizon> u;  // reference solution
-    double tracking_offset = 0.0;      // makes the objective the tracking cost, >= 0
   };
   [[nodiscard]] Mpc ReadMpc(int index) const;
 
@@ -41,14 +40,18 @@ class QpSet {
 
 /// How a set was solved.
 struct QpBenchmark {
-  std::string file;
+  std::string file, kind;
   int problems = 0, solved = 0;
   double worst_error = 0.0;  // MPC: relative objective gap; WBC: |z - z*| relative to max(1, |z*|)
   double worst_violation = 0.0;  // of the force limits [N], MPC
   double median_us = 0.0, p99_us = 0.0, mean_iterations = 0.0;
+  // MPC: every second record started from the solution of the one before it, 10 ms earlier.
+  int warm_problems = 0, warm_solved = 0;
+  double warm_median_us = 0.0, warm_p99_us = 0.0, warm_mean_iterations = 0.0;
 };
 
-/// Solves every .bin set of a folder and times it: per problem the median of `repeats`, then median
+/// Solves every .bin set of a folder and times it, forward-Euler and other dynamics apart: per
+/// problem the median of `repeats`, then median
 /// and p99 over problems.
 [[nodiscard]] std::vector<QpBenchmark> BenchmarkQpSets(const std::filesystem::path& folder,
                                                        int repeats);

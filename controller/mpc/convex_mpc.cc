@@ -69,9 +69,8 @@ void ConvexMpc::Build(const MpcInput& in) noexcept {
     const Mat3 I_inverse = (turn * wb.I_C_W * turn.transpose()).inverse();
     const Vec3 p_WC =
         wb.p_WC + ref.p_WC - reference[0].p_WC;  // the reference motion from where we are
-    stage.F.setZero();
-    stage.F.topLeftCorner<3, 3>() = dt * core::RotationZ(ref.rpy_rad.z()).transpose();
-    stage.F.bottomRightCorner<3, 3>() = dt * Mat3::Identity();
+    stage.E = dt * core::RotationZ(ref.rpy_rad.z()).transpose();
+    stage.dt_s = dt;
     stage.b.setZero();
     stage.b[11] = -dt * gravity_mps2_;
     stage.R.setConstant(2.0 * params_.force_weight);

@@ -10,17 +10,33 @@ namespace scoria::controller {
 
 /// Optimal control problem of the single-rigid-body MPC:
 ///   min  Σ_{k=0..N} ½ xₖᵀQₖxₖ + qₖᵀxₖ + Σ_{k<N} ½ uₖᵀRₖuₖ + rₖᵀuₖ
-///   s.t. xₖ₊₁ = [1 F; 0 1] xₖ + Bₖuₖ + bₖ, x₀ given,
+///   s.t. xₖ₊₁ = [1 F; 0 1] xₖ + Bₖuₖ + bₖ, F = [E 0; 0 dt 1], x₀ given,
 ///        foot in stance: |fx| ≤ μ fz, |fy| ≤ μ fz, f_min ≤ fz ≤ f_max; in swing: f = 0.
-/// x (12) = two 6-vectors of which the first integrates the second; u (12) = 4 x (fx, fy, fz) in N,
-/// FL FR HL HR.
+/// x (12) = [angles; position; angular velocity; velocity], the first half integrates the second;
+/// u (12) = 4 x (fx, fy, fz) in N, FL FR HL HR. Q is positive in the second half.
 struct OcpStage {
-  Mat6 F = Mat6::Zero();
+  Mat3 E = Mat3::Zero();  // change of the angles over the stage per angular velocity, s
+  double dt_s = 0.0;
   Mat12 B = Mat12::Zero();
   Vec12 b = Vec12::Zero();
   Vec12 Q = Vec12::Zero(), q = Vec12::Zero();  // diagonal of Q
   Vec12 R = Vec12::Zero(), r = Vec12::Zero();  // diagonal of R
   LegArray<bool> stance;
+
+  /// [1 F; 0 1] x.
+  [[nodiscard]] Vec12 Drift(const Vec12& x) const noexcept {
+    Vec12 next = x;
+    next.head<3>() += E * x.segment<3>(6);
+    next.segment<3>(3) += dt_s * x.tail<3>();
+    return next;
+  }
+  /// [1 F; 0 1]ᵀ p.
+  [[nodiscard]] Vec12 DriftTransposed(const Vec12& p) const noexcept {
+    Vec12 before = p;
+    before.segment<3>(6) += E.transpose() * p.head<3>();
+    before.tail<3>() += dt_s * p.segment<3>(3);
+    return before;
+  }
 };
 
 struct OcpQp {
@@ -36,7 +52,7 @@ struct OcpQp {
 struct OcpSolution {
   SolveStatus status = SolveStatus::kNumerical;
   int iterations = 0;
-  double complementarity = 0.0;  // mean of slack times multiplier at the end
+  double relative_gap = 0.0;  // Σ slack x multiplier over the tracking cost, at the end
   std::array<Vec12, kMaxHorizon> u;
   std::array<Vec12, kMaxHorizon + 1> x;
 };
@@ -44,5 +60,8 @@ struct OcpSolution {
 /// Σ ½ xᵀQx + qᵀx + ½ uᵀRu + rᵀu of the trajectory that `u` produces from x₀.
 [[nodiscard]] double CalcObjective(const OcpQp& qp,
                                    const std::array<Vec12, kMaxHorizon>& u) noexcept;
+
+/// What CalcObjective lacks to the tracking cost Σ ½ (x − x_ref)ᵀQ(x − x_ref) + ..., which is ≥ 0.
+[[nodiscard]] double CalcTrackingOffset(const OcpQp& qp) noexcept;
 
 }  // namespace scoria::controller

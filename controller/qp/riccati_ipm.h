@@ -1,29 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "controller/qp/ocp_qp.h"
+#include "controller/qp/dense_regulator.h"
+#include "controller/qp/wrench_regulator.h"
 #include "core/config/archive.h"
 
 namespace scoria::controller {
 
 struct RiccatiIpmParams {
   double start_complementarity = 1e-2;
-  double tolerance = 1e-5;
+  double tolerance = 1e-4;
   int max_iterations = 40;
+  bool warm_start = true;
   template <class Archive>
   void Serialize(Archive& a) {
-    a.Field("start_complementarity", start_complementarity, {.min = 1e-8, .max = 1e3});
+    a.Field("start_complementarity", start_complementarity,
+            {.min = 1e-8, .max = 1e3, .doc = "slack times multiplier of a cold start"});
     a.Field("tolerance", tolerance,
-            {.min = 1e-12, .max = 1.0, .doc = "mean complementarity to stop at"});
+            {.min = 1e-12, .max = 1.0, .doc = "duality gap to stop at, relative to the cost"});
     a.Field("max_iterations", max_iterations, {.min = 1, .max = 200});
+    a.Field("warm_start", warm_start, {.doc = "start from the last tick's solution"});
   }
 };
 
 /// Primal-dual interior point method for OcpQp with Mehrotra's predictor-corrector; each Newton
-/// system is a linear-quadratic regulator, solved by one Riccati recursion over the stance feet
-/// only. Every iterate satisfies the dynamics and the force limits strictly, so an early stop still
-/// yields a usable plan. Source: [Rao1998]; structure as measured in docs/REFERENCES.md, QP
-/// baseline. Owns all its memory: no allocation.
+/// system is a linear-quadratic regulator. Every iterate satisfies the dynamics and the force
+/// limits strictly, so an early stop still yields a usable plan. Source: [Rao1998]; structure as
+/// measured in docs/REFERENCES.md, QP baseline. Owns all its memory: no allocation.
 class RiccatiIpm {
  public:
   explicit RiccatiIpm(const RiccatiIpmParams& params) : params_(params) {}
@@ -31,53 +34,51 @@ class RiccatiIpm {
   /// Poisons `out` with NaN first. Errors: none thrown; see out.status.
   void Solve(const OcpQp& qp, OcpSolution& out) noexcept;
 
+  /// Forgets the last solution.
+  void Reset() noexcept { last_.valid = false; }
+
  private:
   static constexpr int kRows = 6;  // inequalities per stance foot
+  using RowTable = FootTable<kRows>;
 
-  /// Data of one stage restricted to its stance feet, and the factorisation.
-  struct Stage {
-    int feet = 0;
-    std::array<int, 4> leg{};         // which leg the f-th stance foot is
-    Eigen::Matrix<double, 12, 12> B;  // columns of the stance feet
-    Vec12 R, r;                       // of the stance feet
-    Vec12 u, u_new, r_tilde;
-    Eigen::Matrix<double, kRows, 4> slack, lambda, weight, d_slack,
-        d_lambda;                                      // one column per foot
-    Mat12 L;                                           // Cholesky factor of the input Hessian
-    Eigen::Matrix<double, 12, 12, Eigen::RowMajor> Y;  // L⁻¹ BᵀPA
-    Vec12 h, Pb;
+  /// The last solution by stage and leg, for the next start.
+  struct Memory {
+    bool valid = false;
+    int horizon = 0;
+    std::array<LegArray<bool>, kMaxHorizon> known;
+    Eigen::Array<double, FootIndex::kMaxFeet, 3> u;  // row: 4 stage + leg
+    Eigen::Array<double, FootIndex::kMaxFeet, kRows> lambda;
   };
 
+  [[nodiscard]] Regulator& regulator(const OcpQp& qp) noexcept {
+    if (qp.forward_euler) return wrench_;
+    return dense_;
+  }
   void Load(const OcpQp& qp) noexcept;
   void Start(const OcpQp& qp) noexcept;
-  [[nodiscard]] double MeanComplementarity() const noexcept;
-  void SetGradients(double target, bool corrector) noexcept;
-  [[nodiscard]] bool Factorize(const OcpQp& qp) noexcept;
-  void SolveForInputs(const OcpQp& qp) noexcept;
+  void CalcSlacks(const FootTable<3>& u, RowTable& slack) const noexcept;
+  [[nodiscard]] double Cost(const OcpQp& qp) const noexcept;
+  void CalcWeights() noexcept;
+  void CalcGradients(double target, bool corrector) noexcept;
   void CalcDirections(double target, bool corrector) noexcept;
   struct StepLengths {
     double primal = 1.0, dual = 1.0;
   };
   [[nodiscard]] StepLengths MaxSteps() const noexcept;
-  [[nodiscard]] double ComplementarityAfter(const StepLengths& step) const noexcept;
-  void TakeStep(StepLengths step) noexcept;
-  void Extract(const OcpQp& qp, OcpSolution& out) const noexcept;
-
-  template <int kFeet>
-  [[nodiscard]] bool FactorizeStage(const OcpStage& data, bool euler, Stage& stage) noexcept;
-  template <int kFeet>
-  void BackwardStage(const OcpStage& data, Stage& stage, Vec12& p) const noexcept;
-  template <int kFeet>
-  void ForwardStage(const OcpStage& data, Stage& stage, Vec12& x) const noexcept;
-
-  [[nodiscard]] Eigen::Matrix<double, kRows, 1> Slacks(const Vec3& f) const noexcept;
+  void TakeStep(const OcpQp& qp, StepLengths step) noexcept;
+  void Extract(const OcpQp& qp, OcpSolution& out) noexcept;
 
   RiccatiIpmParams params_;
-  int horizon_ = 0;
-  int num_inequalities_ = 0;
-  double friction_ = 0.0, f_min_ = 0.0, f_max_ = 0.0;
-  std::array<Stage, kMaxHorizon> stages_;
-  Mat12 P_;
+  double friction_ = 0.0, f_min_ = 0.0, f_max_ = 0.0, cost_offset_ = 0.0;
+  FootIndex feet_;
+  FootTable<3> R_, r_;
+  FootTrajectory now_, newton_;
+  RowTable slack_, lambda_, weight_, inverse_slack_, d_slack_, d_lambda_;
+  FootHessian hessian_;
+  FootTable<3> gradient_;
+  WrenchRegulator wrench_;
+  DenseRegulator dense_;
+  Memory last_;
 };
 
 }  // namespace scoria::controller

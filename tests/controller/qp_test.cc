@@ -82,7 +82,8 @@ OcpQp SampleProblem(core::Rng& rng, bool euler) {
     OcpStage& s = qp.stages[static_cast<std::size_t>(k)];
     s.Q << Vec3::Constant(50.0), Vec3::Constant(80.0), Vec3::Constant(0.5), Vec3::Constant(10.0);
     s.q = -s.Q.cwiseProduct(0.1 * Vec12::Ones());
-    s.F = dt * Mat6::Identity();
+    s.E = dt * Mat3::Identity();
+    s.dt_s = dt;
     s.b[11] = -dt * 9.81;
     s.R.setConstant(2e-4);
     s.stance = k % 2 == 0 ? LegArray<bool>(true, false, false, true)
@@ -171,9 +172,8 @@ TEST(RiccatiIpm, AgreesWithTheCondensedActiveSetSolution) {
     EXPECT_NEAR(sparse, dense, 1e-6 * (1.0 + std::abs(dense))) << trial;
     for (int k = 0; k < qp.horizon; ++k) {
       const OcpStage& s = qp.stages[static_cast<std::size_t>(k)];
-      Vec12 next = solution.x[static_cast<std::size_t>(k)] + s.b +
-                   s.B * solution.u[static_cast<std::size_t>(k)];
-      next.head<6>() += s.F * solution.x[static_cast<std::size_t>(k)].tail<6>();
+      const Vec12 next = s.Drift(solution.x[static_cast<std::size_t>(k)]) + s.b +
+                         s.B * solution.u[static_cast<std::size_t>(k)];
       EXPECT_LT((next - solution.x[static_cast<std::size_t>(k) + 1]).norm(), 1e-12);
     }
   }
@@ -201,6 +201,7 @@ TEST(ReferenceData, AllProblemsAreSolvedToTheirKnownAnswers) {
   if (data == nullptr) GTEST_SKIP() << "SCORIA_REFERENCE_DATA is not set";
   for (const app::QpBenchmark& b : app::BenchmarkQpSets(std::filesystem::path(data) / "qp", 1)) {
     EXPECT_EQ(b.solved, b.problems) << b.file;
+    EXPECT_EQ(b.warm_solved, b.warm_problems) << b.file;
     EXPECT_GT(b.problems, 0) << b.file;
     EXPECT_LE(b.worst_error, 1e-6) << b.file;
     EXPECT_LE(b.worst_violation, 1e-9) << b.file;
