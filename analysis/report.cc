@@ -62,43 +62,49 @@ std::string Summary(const CampaignResults& results) {
                      results.episodes.size(), metres, falls);
 }
 
+/// A table of counts by name and arm; nothing where nothing was counted.
+template <class Number>
+void AddCounts(const std::string& title,
+               const std::map<std::string, std::map<std::string, Number>>& counts,
+               const std::vector<std::string>& arms, HtmlPage& page) {
+  if (counts.empty()) return;
+  std::vector<std::string> header = {title};
+  header.insert(header.end(), arms.begin(), arms.end());
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [name, per_arm] : counts) {
+    std::vector<std::string> row = {name};
+    for (const std::string& arm : arms)
+      row.push_back(std::to_string(per_arm.contains(arm) ? per_arm.at(arm) : 0));
+    rows.push_back(row);
+  }
+  page.Table(header, rows);
+}
+
 /// What went wrong, first: broken episodes, then falls by cause.
 void AddFailures(const CampaignResults& results, HtmlPage& page) {
   page.Heading("Failures");
   std::vector<std::vector<std::string>> broken;
   std::map<std::string, std::map<std::string, int>> causes;
-  long stuck = 0, mpc = 0, wbc = 0, drops = 0;
+  std::map<std::string, std::map<std::string, std::uint64_t>> counters;
+  long stuck = 0;
   for (const EpisodeRecord& e : results.episodes) {
     if (e.end != "completed") broken.push_back({e.id, e.end, e.message});
     for (const FallEvent& f : e.metrics.falls)
       ++causes[f.cause.substr(0, f.cause.find(' '))][e.arm];
     stuck += e.stuck;
-    mpc += static_cast<long>(e.mpc_failures);
-    wbc += static_cast<long>(e.wbc_failures);
-    drops += static_cast<long>(e.wbc_torque_drops);
+    for (const auto& [what, times] : e.counters) {
+      if (times > 0) counters[what][e.arm] += times;
+    }
   }
   if (broken.empty()) {
     page.Paragraph("Every episode walked its whole distance.");
   } else {
     page.Table({"episode", "ended", "message"}, broken);
   }
-  std::vector<std::vector<std::string>> rows;
-  for (const auto& [cause, per_arm] : causes) {
-    std::vector<std::string> row = {cause};
-    for (const std::string& arm : results.arms)
-      row.push_back(std::to_string(per_arm.contains(arm) ? per_arm.at(arm) : 0));
-    rows.push_back(row);
-  }
-  if (!rows.empty()) {
-    std::vector<std::string> header = {"cause of fall"};
-    header.insert(header.end(), results.arms.begin(), results.arms.end());
-    page.Table(header, rows);
-  }
+  AddCounts("cause of fall", causes, results.arms, page);
   page.Paragraph(
-      fmt::format("Stuck {} times. MPC solver failures: {}; WBC solver failures: {}; WBC solves "
-                  "without torque limits "
-                  "because they were infeasible: {}.",
-                  stuck, mpc, wbc, drops));
+      fmt::format("Stuck {} times. What the controller met and how it fell back:", stuck));
+  AddCounts("contacts, solver failures and fallbacks", counters, results.arms, page);
 }
 
 void AddVerdicts(const CampaignResults& results, HtmlPage& page) {

@@ -42,11 +42,7 @@ void ReadResult(const fs::path& folder, EpisodeRecord& episode) {
     j.at("stuck").get_to(episode.stuck);
     j.at("walked_m").get_to(episode.walked_m);
     j.at("real_time_factor").get_to(episode.real_time_factor);
-    const json& c = j.at("counters");
-    c.at("early_contacts").get_to(episode.early_contacts);
-    c.at("mpc_failures").get_to(episode.mpc_failures);
-    c.at("wbc_failures").get_to(episode.wbc_failures);
-    c.at("wbc_torque_drops").get_to(episode.wbc_torque_drops);
+    j.at("counters").get_to(episode.counters);
     episode.terrain = StatisticsFromJson(j.at("terrain"));
     episode.metrics = j.at("metrics").get<EpisodeMetrics>();
     episode.has_metrics = true;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ struct EpisodeRecord {
   bool has_metrics = false;  // false for a crashed worker or a missing result
   int falls = 0, stuck = 0;
   double walked_m = 0.0, real_time_factor = 0.0;
-  std::uint64_t early_contacts = 0, mpc_failures = 0, wbc_failures = 0, wbc_torque_drops = 0;
+  std::map<std::string, std::uint64_t> counters;  // what did not go to plan, by name
   terrains::TerrainStatistics terrain;
   EpisodeMetrics metrics;
   std::filesystem::path folder;

@@ -15,6 +15,12 @@
 namespace scoria::app {
 namespace {
 
+nlohmann::json CountersToJson(const Counters& counters) {
+  nlohmann::json json;
+  for (const auto& [what, name] : EnumNames(Count{})) json[name] = counters[what];
+  return json;
+}
+
 namespace fs = std::filesystem;
 
 }  // namespace
@@ -70,11 +76,7 @@ EpisodeReport RunToFolder(const Scenario& scenario, const RunOptions& options) {
       {"stuck", r.stuck},
       {"walked_m", r.walked_m},
       {"state_hash", fmt::format("{:016x}", r.state_hash)},
-      {"counters",
-       {{"early_contacts", r.counters.early_contacts},
-        {"mpc_failures", r.counters.mpc_failures},
-        {"wbc_failures", r.counters.wbc_failures},
-        {"wbc_torque_drops", r.counters.wbc_torque_drops}}},
+      {"counters", CountersToJson(r.counters)},
       {"unconverged_physics_steps", r.unconverged_steps},
       {"real_time_factor", report.real_time_factor},
       {"physics_us_per_step", r.physics_s / simulated_s * scenario.physics.step_s * 1e6},

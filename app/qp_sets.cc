@@ -136,7 +136,7 @@ QpBenchmark SolveWbcSet(const QpSet& set, int repeats) {
     const QpSet::Wbc problem = set.ReadWbc(i);
     controller::DenseSolution solution;
     times.push_back(MedianMicroseconds(
-        repeats, [] {}, [&] { solution = solver.Solve(problem.qp); }));
+        repeats, [] {}, [&] { solver.Solve(problem.qp, solution); }));
     if (solution.status == controller::SolveStatus::kOptimal) ++b.solved;
     const double error = (solution.z - problem.z).lpNorm<Eigen::Infinity>() /
                          std::max(1.0, problem.z.lpNorm<Eigen::Infinity>());

@@ -285,9 +285,11 @@ void Recorder::Record(const StepRecord& r, const core::LogRow& row) {
   if (r.step % slow_every_ == 0) {
     msg::ControllerInfo info;
     info.header = MakeHeader(t, "");
-    info.num_early_contacts = r.counters.early_contacts;
-    info.num_mpc_solver_fail = r.counters.mpc_failures;
-    info.num_wbc_solver_fail = r.counters.wbc_failures;
+    info.num_early_contacts = static_cast<std::uint32_t>(r.counters[Count::kEarlyContact]);
+    info.num_mpc_solver_overtime = static_cast<std::uint32_t>(r.counters[Count::kMpcLate]);
+    info.num_wbc_overtime = static_cast<std::uint32_t>(r.counters[Count::kWbcLate]);
+    info.num_mpc_solver_fail = static_cast<std::uint32_t>(r.counters[Count::kMpcFailure]);
+    info.num_wbc_solver_fail = static_cast<std::uint32_t>(r.counters[Count::kWbcFailure]);
     info.keep_pose_active = r.control.contacts.standing;
     Write(topics[kHeartbeat], t, info);
   }

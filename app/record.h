@@ -44,7 +44,7 @@ struct StepRecord {
   const SensorFrame& sensors;
   const Command& command;
   const controller::ControlOutput& control;
-  controller::ControllerCounters counters;
+  Counters counters;
   const sim::EnergyMeter& energy;
   const sim::BatteryState& battery;
   const LegArray<Vec3>& motor_tau_Nm;

@@ -9,6 +9,7 @@
 
 #include "core/hash.h"
 #include "core/math/so3.h"
+#include "core/rng.h"
 #include "core/robot/normalise.h"
 #include "sim/sensors/sensors.h"
 
@@ -52,6 +53,7 @@ class Episode {
         actuation_(robot),
         sensors_(robot, gravity_W_, scenario.physics.step_s),
         operator_(scenario.operation, ground),
+        fault_rng_(scenario.seed, 0, core::Stream::kSolverFault),
         fall_monitor_(scenario.fall, robot.config.nominal_height_m, scenario.physics.step_s),
         wbc_every_(
             std::max(1, static_cast<int>(std::lround(
@@ -100,8 +102,10 @@ class Episode {
     const SensorFrame z =
         sensors_.Read(world_.truth(), actuation_.motor_tau_Nm(), step_, give_truth_);
     const Command command = Commanded();
-    const controller::ControlOutput& control = controller_->Step(z, command);
+    const controller::SolverFaults faults = DrawSolverFaults();
+    const controller::ControlOutput& control = controller_->Step(z, command, faults);
     const auto controlled = WallClock::now();
+    CountInjected(faults, control);
     Record(z, command, control);
     const auto recorded = WallClock::now();
     world_.SetTrunkWrench(PushForce(), Vec3::Zero());
@@ -120,6 +124,33 @@ class Episode {
     if (!ready) return {};
     walking_s_ += scenario_.physics.step_s;
     return operator_.Update(world_.truth().state, walking_s_, scenario_.physics.step_s);
+  }
+
+  /// Drawn at every step, so that a controller that runs slower meets the same faults.
+  [[nodiscard]] controller::SolverFaults DrawSolverFaults() {
+    if (scenario_.solver_faults.share == 0.0) return {};
+    using controller::SolverFault;
+    constexpr std::array<SolverFault, 3> kKinds = {SolverFault::kFail, SolverFault::kNan,
+                                                   SolverFault::kLate};
+    const auto draw = [&] {
+      const double u = fault_rng_.NextUniform() / scenario_.solver_faults.share;
+      return u < 1.0 ? kKinds[static_cast<std::size_t>(3.0 * u)] : SolverFault::kNone;
+    };
+    controller::SolverFaults faults;
+    faults.mpc = draw();
+    faults.wbc = draw();
+    return faults;
+  }
+
+  void CountInjected(const controller::SolverFaults& faults,
+                     const controller::ControlOutput& control) {
+    using controller::SolverFault;
+    const auto add = [&](SolverFault fault, Count failure, Count late) {
+      if (fault == SolverFault::kNone) return;
+      result_.injected.Add(fault == SolverFault::kLate ? late : failure);
+    };
+    if (control.mpc_updated) add(faults.mpc, Count::kMpcFailure, Count::kMpcLate);
+    if (control.wbc_updated) add(faults.wbc, Count::kWbcFailure, Count::kWbcLate);
   }
 
   /// A push starts once, when walking time first reaches it, and lasts its duration in simulated
@@ -264,7 +295,7 @@ class Episode {
     sensors_.Reset();
     actuation_.Reset();
     fall_monitor_.Reset();
-    if (controller_) Accumulate(controller_->counters());
+    if (controller_) counters_ += controller_->counters();
     controller_ = std::make_unique<controller::Controller>(
         scenario_.controller, robot_, scenario_.gravity_mps2, scenario_.physics.step_s,
         standing ? controller::Controller::Start::kStanding
@@ -275,21 +306,9 @@ class Episode {
     ++segment_;
   }
 
-  void Accumulate(const controller::ControllerCounters& c) {
-    counters_.early_contacts += c.early_contacts;
-    counters_.mpc_failures += c.mpc_failures;
-    counters_.wbc_failures += c.wbc_failures;
-    counters_.wbc_torque_drops += c.wbc_torque_drops;
-  }
-
-  [[nodiscard]] controller::ControllerCounters counters_so_far() const {
-    controller::ControllerCounters sum = counters_;
-    const controller::ControllerCounters& now = controller_->counters();
-    sum.early_contacts += now.early_contacts;
-    sum.mpc_failures += now.mpc_failures;
-    sum.wbc_failures += now.wbc_failures;
-    sum.wbc_torque_drops += now.wbc_torque_drops;
-    return sum;
+  [[nodiscard]] Counters counters_so_far() const {
+    Counters sum = counters_;
+    return sum += controller_->counters();
   }
 
   void Announce(const std::string& kind, const std::string& detail) {
@@ -314,12 +333,13 @@ class Episode {
   sim::Actuation actuation_;
   sim::Sensors sensors_;
   Operator operator_;
+  core::Rng fault_rng_;
   FallMonitor fall_monitor_;
   int wbc_every_;
   bool give_truth_;
   std::optional<Recorder> recorder_;
   std::unique_ptr<controller::Controller> controller_;
-  controller::ControllerCounters counters_;  // of controllers before the present one
+  Counters counters_;  // of controllers before the present one
   EpisodeResult result_;
   std::int64_t step_ = 0;
   std::uint32_t segment_ = 0;

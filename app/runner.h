@@ -34,8 +34,8 @@ struct EpisodeResult {
   double duration_s = 0.0;  // simulated
   double walked_m = 0.0;    // as the operator paces it: half-second chords, placements excluded
   int falls = 0, stuck = 0;
-  std::uint64_t state_hash = 0;  // over every state that was hashed on the way
-  controller::ControllerCounters counters;
+  std::uint64_t state_hash = 0;        // over every state that was hashed on the way
+  Counters counters, injected;         // what did not go to plan; which of it was played
   std::int64_t unconverged_steps = 0;  // of the physics' contact solver
   double physics_s = 0.0,
          controller_s = 0.0;  // wall clock of the two, without set-up and recording

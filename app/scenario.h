@@ -51,6 +51,19 @@ struct Push {
   }
 };
 
+/// Faults of the controller's solvers, to see what its fallbacks are worth.
+struct SolverFaultParams {
+  double share = 0.0;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Field("share", share,
+            {.min = 0.0,
+             .max = 1.0,
+             .doc = "of MPC and WBC ticks, at random, at which the solver fails, returns NaN or is "
+                    "late, a third each"});
+  }
+};
+
 /// One experiment.
 struct Scenario {
   std::string name;
@@ -63,6 +76,7 @@ struct Scenario {
   StartPose start = StartPose::kStanding;
   OperatorParams operation = RouteParams{};
   std::vector<Push> pushes;
+  SolverFaultParams solver_faults;
   controller::ControllerParams controller;
   FallParams fall;
   int max_falls = 1000;
@@ -79,6 +93,7 @@ struct Scenario {
     a.Field("start", start);
     a.Field("operator", operation);
     a.Field("pushes", pushes);
+    a.Field("solver_faults", solver_faults);
     a.Field("controller", controller);
     a.Field("fall", fall);
     a.Field("max_falls", max_falls, {.min = 0, .max = 1e6, .doc = "the episode ends at this many"});

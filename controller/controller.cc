@@ -2,8 +2,10 @@
 #include "controller/controller.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <limits>
+
+#include "core/stopwatch.h"
 
 namespace scoria::controller {
 namespace {
@@ -19,17 +21,6 @@ StandUpParams HoldOnly(StandUpParams params) {
   return params;
 }
 
-/// Wall-clock stopwatch; its reading goes to the record only.
-class Stopwatch {
- public:
-  [[nodiscard]] double seconds() const noexcept {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
 }  // namespace
 
 Controller::Controller(const ControllerParams& params, const core::RobotDescription& robot,
@@ -42,7 +33,7 @@ Controller::Controller(const ControllerParams& params, const core::RobotDescript
       operating_(false),
       model_(robot, gravity_mps2),
       foot_radius_m_(robot.legs[Leg::kFL].foot_radius_m),
-      estimator_(MakeStateEstimator(params.estimator)),
+      estimator_(MakeStateEstimator(params.estimator, step_s)),
       stand_up_(start == Start::kLying ? params.stand_up : HoldOnly(params.stand_up),
                 StandingPose(robot, robot.config.nominal_height_m)),
       gait_(MakeGaitSequencer(params.gait, robot.config.nominal_height_m)),
@@ -51,28 +42,32 @@ Controller::Controller(const ControllerParams& params, const core::RobotDescript
       leg_states_(params.legs),
       swing_(params.swing, robot),
       mpc_(params.mpc, robot, gravity_mps2),
-      wbc_(params.wbc, robot) {}
+      wbc_(MakeWholeBodyController(params.wbc, robot)),
+      fallback_(MakeWholeBodyController(InverseDynamicsParams{}, robot)),
+      guard_(params.safety, robot) {}
 
-const ControlOutput& Controller::Step(const SensorFrame& z, const Command& command) noexcept {
+const ControlOutput& Controller::Step(const SensorFrame& z, const Command& command,
+                                      const SolverFaults& faults) noexcept {
   out_.estimate = estimator_->Update(z);
   out_.mpc_updated = out_.wbc_updated = false;
   if (!operating_) {
     const double since_s = static_cast<double>(clock_.step() - first_step_) * clock_.step_s();
     out_.command = stand_up_.Update(z, since_s);
     operating_ = stand_up_.IsDone(since_s) && clock_.Due(mpc_every_);
+    operating_since_ = clock_.step();
   }
   if (operating_) {
     const bool plans_due = clock_.Due(mpc_every_), body_due = clock_.Due(wbc_every_);
     if (plans_due || body_due) model_.Calc(out_.estimate.state, wb_);
-    if (plans_due) StepPlans(command);
-    if (body_due) StepBody();
+    if (plans_due) StepPlans(command, faults.mpc);
+    if (body_due) StepBody(faults.wbc);
   }
   out_.operating = operating_;
   clock_.Advance();
   return out_;
 }
 
-void Controller::StepPlans(const Command& command) noexcept {
+void Controller::StepPlans(const Command& command, SolverFault fault) noexcept {
   const double dt_s = mpc_every_ * clock_.step_s();
   reference_planner_.ObserveFeet(wb_, out_.estimate.contact, foot_radius_m_);
   reference_ =
@@ -89,54 +84,89 @@ void Controller::StepPlans(const Command& command) noexcept {
   gait.horizon = params_.mpc.horizon;
   gait.stage_s = params_.mpc.stage_s;
   out_.contacts = gait_->Plan(gait);
-  plan_step_ = clock_.step();
-  out_.legs = leg_states_.Update(out_.contacts, out_.estimate.contact, 0.0, 0.0);
+  contacts_step_ = clock_.step();
+  out_.legs = leg_states_.Update(out_.contacts, out_.estimate.contact, 0.0, 0.0, counters_);
   footholds_ =
       foothold_planner_.Plan(wb_, out_.contacts, out_.legs, reference_, reference_planner_.plane());
-
-  const Stopwatch watch;
-  const MpcResult result = mpc_.Solve({wb_, out_.contacts, out_.legs, reference_, footholds_});
-  out_.mpc_solve_s = watch.seconds();
-  out_.mpc_status = result.status;
-  out_.mpc_iterations = result.iterations;
-  out_.mpc_updated = true;
   out_.reference = reference_.stages[0];
   out_.ground_z_m = reference_.ground_z_m;
-  if (!IsUsable(result.status)) ++counters_.mpc_failures;
 
-  // A result becomes active latency_ticks after its state was taken; a failed one never does.
-  const auto size = static_cast<std::int64_t>(pending_.size());
-  pending_[static_cast<std::size_t>(mpc_tick_ % size)] = {result.plan, clock_.step()};
-  const std::int64_t due = std::max<std::int64_t>(0, mpc_tick_ - params_.mpc.latency_ticks);
-  const PendingPlan& ready = pending_[static_cast<std::size_t>(due % size)];
-  if (ready.plan.valid) active_ = ready;
-  ++mpc_tick_;
+  mpc_.input() = {wb_, out_.contacts, out_.legs, reference_, footholds_};
+  mpc_.Submit();
+  TakePlan(fault);
 }
 
-void Controller::StepBody() noexcept {
-  const double age_s = static_cast<double>(clock_.step() - plan_step_) * clock_.step_s();
-  out_.legs =
-      leg_states_.Update(out_.contacts, out_.estimate.contact, age_s, wbc_every_ * clock_.step_s());
-  counters_.early_contacts = leg_states_.early_contacts();
-  out_.feet = swing_.Plan(wb_, out_.legs, footholds_);
-  if (!active_.plan.valid) return;
+/// The plan that is due becomes the one in force, unless it failed or is late.
+void Controller::TakePlan(SolverFault fault) noexcept {
+  const MpcRunner::Result& result = mpc_.Collect();
+  out_.mpc_solve_s = result.solve_s;
+  out_.mpc_status = fault == SolverFault::kFail ? SolveStatus::kNumerical : result.mpc.status;
+  out_.mpc_iterations = result.mpc.iterations;
+  out_.mpc_updated = true;
+  DatedPlan due{result.mpc.plan, operating_since_ + result.tick * mpc_every_};
+  if (fault == SolverFault::kNan)
+    due.plan.f_F_W[0][Leg::kFL].setConstant(std::numeric_limits<double>::quiet_NaN());
+  if (late_.plan.valid) active_ = late_;
+  late_ = {};
+  if (!IsUsable(out_.mpc_status) || !due.plan.valid || !IsFinite(due.plan)) {
+    counters_.Add(Count::kMpcFailure);
+  } else if (fault == SolverFault::kLate) {
+    counters_.Add(Count::kMpcLate);
+    late_ = due;
+  } else {
+    active_ = due;
+  }
+}
 
-  const Stopwatch watch;
-  const double plan_age_s = static_cast<double>(clock_.step() - active_.step) * clock_.step_s();
+void Controller::StepBody(SolverFault fault) noexcept {
+  const double step_s = clock_.step_s();
+  const double contacts_age_s = static_cast<double>(clock_.step() - contacts_step_) * step_s;
+  out_.legs = leg_states_.Update(out_.contacts, out_.estimate.contact, contacts_age_s,
+                                 wbc_every_ * step_s, counters_);
+  out_.feet = swing_.Plan(wb_, out_.legs, footholds_);
+
+  double plan_age_s = static_cast<double>(clock_.step() - active_.step) * step_s;
+  ForcePlan plan = active_.plan;
+  if (!plan.valid || plan_age_s > params_.safety.max_plan_age_s) {
+    counters_.Add(Count::kPlanExpired);
+    plan = StandInPlan(wb_.mass_kg * model_.gravity_mps2(), out_.legs.Contacts(), reference_,
+                       params_.mpc.stage_s);
+    plan_age_s = 0.0;
+  }
+  const core::Stopwatch watch;
   const WbcResult result =
-      wbc_.Solve({wb_, out_.legs, out_.feet, active_.plan, plan_age_s, reference_.n_W});
+      SolveBody({wb_, out_.legs, out_.feet, plan, plan_age_s, reference_.n_W}, fault);
   out_.wbc_solve_s = watch.seconds();
+  out_.wbc_updated = true;
   out_.wbc_status = result.status;
   out_.wbc_iterations = result.iterations;
-  out_.wbc_updated = true;
-  if (result.torque_rows_dropped) ++counters_.wbc_torque_drops;
-  if (!IsUsable(result.status)) {
-    ++counters_.wbc_failures;  // the last command stays in force
-    return;
-  }
-  out_.command = result.command;
+  out_.command = guard_.Check(result.command, wb_.state, counters_);
   out_.f_F_W = result.f_F_W;
   out_.target = result.target;
+}
+
+/// The body controller's answer; where there is none, the last command for a while, then inverse
+/// dynamics. What even that cannot answer, the guard damps.
+WbcResult Controller::SolveBody(const WbcInput& in, SolverFault fault) noexcept {
+  WbcResult result = wbc_->Solve(in);
+  if (fault == SolverFault::kFail) result.status = SolveStatus::kNumerical;
+  if (fault == SolverFault::kNan)
+    result.command.tau_Nm[Leg::kFL].setConstant(std::numeric_limits<double>::quiet_NaN());
+  if (result.torque_rows_dropped) counters_.Add(Count::kTorqueRowsDropped);
+  if (result.singular_leg) counters_.Add(Count::kSingularLeg);
+  const bool failed = !IsUsable(result.status) || !IsFinite(result.command);
+  if (!failed && fault != SolverFault::kLate) {
+    command_step_ = clock_.step();
+    return result;
+  }
+  counters_.Add(failed ? Count::kWbcFailure : Count::kWbcLate);
+  const double age_s = static_cast<double>(clock_.step() - command_step_) * clock_.step_s();
+  if (!failed && age_s <= params_.safety.max_command_age_s) {
+    result.command = out_.command;
+    return result;
+  }
+  counters_.Add(Count::kInverseDynamics);
+  return fallback_->Solve(in);
 }
 
 }  // namespace scoria::controller

@@ -7,14 +7,16 @@
 
 #include "controller/estimation/state_estimator.h"
 #include "controller/gait/gait_sequencer.h"
-#include "controller/mpc/convex_mpc.h"
+#include "controller/mpc/mpc_runner.h"
 #include "controller/reference/reference_planner.h"
 #include "controller/safety/leg_state_machine.h"
+#include "controller/safety/output_guard.h"
 #include "controller/stand_up.h"
 #include "controller/swing/foothold_planner.h"
 #include "controller/swing/swing_trajectory.h"
-#include "controller/wbc/tsid.h"
+#include "controller/wbc/whole_body_controller.h"
 #include "core/clock.h"
+#include "core/robot/counters.h"
 #include "core/robot/whole_body.h"
 
 namespace scoria::controller {
@@ -37,7 +39,8 @@ struct ControllerParams {
   LegStateParams legs;
   SwingParams swing;
   MpcParams mpc;
-  TsidParams wbc;
+  WbcParams wbc = TsidParams{};
+  SafetyParams safety;
   StandUpParams stand_up;
   template <class Archive>
   void Serialize(Archive& a) {
@@ -50,6 +53,7 @@ struct ControllerParams {
     a.Field("swing", swing);
     a.Field("mpc", mpc);
     a.Field("wbc", wbc);
+    a.Field("safety", safety);
     a.Field("stand_up", stand_up);
   }
 };
@@ -72,10 +76,10 @@ struct ControlOutput {
   double mpc_solve_s = 0.0, wbc_solve_s = 0.0;  // wall clock
 };
 
-/// Counters of everything that did not go to plan, since the start.
-struct ControllerCounters {
-  std::uint32_t early_contacts = 0, mpc_failures = 0, wbc_failures = 0, wbc_torque_drops = 0;
-  bool operator==(const ControllerCounters&) const = default;
+/// A fault to be played on a solver's next answer: it fails, claims success with NaN, or is late.
+enum class SolverFault { kNone, kFail, kNan, kLate };
+struct SolverFaults {
+  SolverFault mpc = SolverFault::kNone, wbc = SolverFault::kNone;
 };
 
 /// The hierarchy: estimation every physics step, gait, reference, footholds and MPC at mpc_Hz,
@@ -91,14 +95,20 @@ class Controller {
   Controller(const ControllerParams& params, const core::RobotDescription& robot,
              double gravity_mps2, double step_s, Start start, std::int64_t first_step = 0);
 
-  [[nodiscard]] const ControlOutput& Step(const SensorFrame& z, const Command& command) noexcept;
+  /// @param faults played on the solvers if this is one of their ticks.
+  [[nodiscard]] const ControlOutput& Step(const SensorFrame& z, const Command& command,
+                                          const SolverFaults& faults = {}) noexcept;
 
-  [[nodiscard]] const ControllerCounters& counters() const noexcept { return counters_; }
-  [[nodiscard]] const ConvexMpc& mpc() const noexcept { return mpc_; }
+  /// Everything that did not go to plan, since the start.
+  [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
+  [[nodiscard]] const ConvexMpc& mpc() const noexcept { return mpc_.mpc(); }
+  [[nodiscard]] const WholeBodyController& wbc() const noexcept { return *wbc_; }
 
  private:
-  void StepPlans(const Command& command) noexcept;
-  void StepBody() noexcept;
+  void StepPlans(const Command& command, SolverFault fault) noexcept;
+  void TakePlan(SolverFault fault) noexcept;
+  void StepBody(SolverFault fault) noexcept;
+  [[nodiscard]] WbcResult SolveBody(const WbcInput& in, SolverFault fault) noexcept;
 
   ControllerParams params_;
   core::StepClock clock_;
@@ -114,20 +124,20 @@ class Controller {
   FootholdPlanner foothold_planner_;
   LegStateMachine leg_states_;
   SwingTrajectory swing_;
-  ConvexMpc mpc_;
-  TsidNullspace wbc_;
+  MpcRunner mpc_;
+  std::unique_ptr<WholeBodyController> wbc_, fallback_;
+  OutputGuard guard_;
 
   core::WholeBody wb_;
   BodyReference reference_;
   FootholdPlan footholds_;
-  struct PendingPlan {
+  struct DatedPlan {
     ForcePlan plan;
     std::int64_t step = 0;  // when its state was taken
   };
-  std::array<PendingPlan, 6> pending_;  // ring of MPC results, by MPC tick
-  PendingPlan active_;
-  std::int64_t mpc_tick_ = 0, plan_step_ = 0;
-  ControllerCounters counters_;
+  DatedPlan active_, late_;  // in force; came too late for the last tick
+  std::int64_t operating_since_ = 0, contacts_step_ = 0, command_step_ = 0;
+  Counters counters_;
   ControlOutput out_;
 };
 

@@ -18,7 +18,8 @@ enum class Stream : std::uint32_t {
   kGullies,
   kCraters,
   kCells,
-  kRipples
+  kRipples,
+  kSolverFault
 };
 
 /// Philox 4x32 with 10 rounds: a bijection of `counter` under `key`.

@@ -19,8 +19,8 @@ struct MpcWeights {
     a.Field("rpy", rpy, {.min = 0.0, .max = kMax, .doc = "per rad^2"});
     a.Field("position", position, {.min = 0.0, .max = kMax, .doc = "per m^2"});
     a.Field("angular_velocity", angular_velocity,
-            {.min = 0.0, .max = kMax, .doc = "per (rad/s)^2"});
-    a.Field("velocity", velocity, {.min = 0.0, .max = kMax, .doc = "per (m/s)^2"});
+            {.min = 1e-6, .max = kMax, .doc = "per (rad/s)^2"});
+    a.Field("velocity", velocity, {.min = 1e-6, .max = kMax, .doc = "per (m/s)^2"});
   }
 };
 
@@ -34,6 +34,7 @@ struct MpcParams {
   MpcWeights stand{Vec3::Constant(200.0), Vec3(200.0, 200.0, 200.0), Vec3::Constant(1.0),
                    Vec3::Constant(20.0)};
   int latency_ticks = 1;
+  bool threaded = false;
   RiccatiIpmParams solver;
   template <class Archive>
   void Serialize(Archive& a) {
@@ -49,6 +50,8 @@ struct MpcParams {
             {.min = 0,
              .max = 5,
              .doc = "a result is used this many MPC ticks after its state was taken"});
+    a.Field("threaded", threaded,
+            {.doc = "solve on a thread of its own; the same bits, spread over two cores"});
     a.Field("solver", solver);
   }
   [[nodiscard]] std::string Problem() const {
@@ -56,12 +59,13 @@ struct MpcParams {
   }
 };
 
+/// A snapshot: it may be solved on another thread.
 struct MpcInput {
-  const core::WholeBody& wb;
-  const ContactPlan& contacts;
-  const LegPhases& legs;  // who stands now
-  const BodyReference& reference;
-  const FootholdPlan& footholds;
+  core::WholeBody wb;
+  ContactPlan contacts;
+  LegPhases legs;  // who stands now
+  BodyReference reference;
+  FootholdPlan footholds;
 
   /// Who bears force at a stage: at first who stands now, then the plan; a foot that touched early
   /// stands on.

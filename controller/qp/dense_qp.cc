@@ -3,75 +3,65 @@
 
 #include <Eigen/QR>
 
-#include "controller/qp/dual_active_set.h"
-#include "core/demand.h"
-
 namespace scoria::controller {
 namespace {
 
-constexpr int kMaxVars = 42, kMaxRows = 256;
-constexpr double kNone = 1e19;
-using Solver = DualActiveSet<kMaxVars, kMaxRows>;
+using Side = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, DenseQp::kMaxVars>;
 
-/// Collects a z >= b from two-sided rows, leaving out infinite sides.
-class RowCollector {
- public:
-  explicit RowCollector(Eigen::Index variables) : A_(0, variables), b_(0) {}
-  void Add(const Eigen::RowVectorXd& a, double low, double high) {
-    if (low > -kNone) Append(a, low);
-    if (high < kNone) Append(-a, -high);
-  }
-  Eigen::MatrixXd A_;
-  Eigen::VectorXd b_;
-
- private:
-  void Append(const Eigen::RowVectorXd& a, double b) {
-    A_.conservativeResize(A_.rows() + 1, Eigen::NoChange);
-    b_.conservativeResize(A_.rows());
-    A_.bottomRows(1) = a;
-    b_[b_.size() - 1] = b;
-  }
-};
+/// Jacobi scaling z = D s: blocks of very different weight then meet in the null space on equal
+/// terms. A variable without cost of its own keeps its unit.
+DenseQp::Vector Scaling(const DenseQp::Square& H) noexcept {
+  DenseQp::Vector D = H.diagonal();
+  for (double& d : D) d = d > 0.0 ? 1.0 / std::sqrt(d) : 1.0;
+  return D;
+}
 
 }  // namespace
 
-struct DenseQpSolver::Impl {
-  Solver solver;
-  Solver::Result result;
-};
+void DenseQpSolver::Add(const Side& a, double low, double high) noexcept {
+  if (low > -DenseQp::kNone) {
+    sides_.row(num_sides_) = a;
+    bounds_[num_sides_++] = low;
+  }
+  if (high < DenseQp::kNone) {
+    sides_.row(num_sides_) = -a;
+    bounds_[num_sides_++] = -high;
+  }
+}
 
-DenseQpSolver::DenseQpSolver() : impl_(std::make_unique<Impl>()) {}
-DenseQpSolver::~DenseQpSolver() = default;
+void DenseQpSolver::Solve(const DenseQp& qp, DenseSolution& out) noexcept {
+  using Square = DenseQp::Square;
+  using Vector = DenseQp::Vector;
+  const Eigen::Index n = qp.H.rows(), equalities = qp.A.rows(), free = n - equalities;
+  const Vector D = Scaling(qp.H);
+  const Square At = D.asDiagonal() * qp.A.transpose();
+  const Eigen::HouseholderQR<Square> qr(At);
+  Square Q = Square::Identity(n, n);
+  Q.applyOnTheLeft(qr.householderQ());
+  const Square R = qr.matrixQR().topRows(equalities);
+  Vector s = qp.b;
+  R.transpose().triangularView<Eigen::Lower>().solveInPlace(s);
+  const Vector z_0 = D.asDiagonal() * (Q.leftCols(equalities) * s);
+  const Square basis = D.asDiagonal() * Q.rightCols(free);  // z = z_0 + basis y
 
-DenseSolution DenseQpSolver::Solve(const DenseQp& qp) {
-  const Eigen::Index n = qp.H.rows(), equalities = qp.A.rows();
-  // Jacobi scaling z = D s: blocks of very different weight then meet in the null space on equal
-  // terms.
-  const Eigen::VectorXd D = qp.H.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd A = qp.A * D.asDiagonal();
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(A.transpose());
-  const Eigen::MatrixXd Q = qr.householderQ() * Eigen::MatrixXd::Identity(n, n);
-  const Eigen::MatrixXd N = Q.rightCols(n - equalities);
-  const Eigen::MatrixXd R = qr.matrixQR().topRows(equalities).triangularView<Eigen::Upper>();
-  const Eigen::VectorXd s_0 =
-      Q.leftCols(equalities) * R.transpose().triangularView<Eigen::Lower>().solve(qp.b);
-  const Eigen::MatrixXd basis = D.asDiagonal() * N;  // z = z_0 + basis y
-  const Eigen::VectorXd z_0 = D.asDiagonal() * s_0;
+  num_sides_ = 0;
+  sides_.resize(kMaxSides, free);
+  bounds_.resize(kMaxSides);
+  for (Eigen::Index i = 0; i < qp.C.rows(); ++i) {
+    const double at_0 = qp.C.row(i).dot(z_0);
+    Add(qp.C.row(i) * basis, qp.l[i] - at_0, qp.u[i] - at_0);
+  }
+  for (Eigen::Index i = 0; i < n; ++i) Add(basis.row(i), qp.lb[i] - z_0[i], qp.ub[i] - z_0[i]);
+  sides_.conservativeResize(num_sides_, Eigen::NoChange);
+  bounds_.conservativeResize(num_sides_);
 
-  RowCollector rows(n);
-  for (Eigen::Index i = 0; i < qp.C.rows(); ++i) rows.Add(qp.C.row(i), qp.l[i], qp.u[i]);
-  for (Eigen::Index i = 0; i < n; ++i) rows.Add(Eigen::RowVectorXd::Unit(n, i), qp.lb[i], qp.ub[i]);
-  SCORIA_DEMAND(n <= kMaxVars && rows.A_.rows() <= kMaxRows, "variables {}, rows {}", n,
-                rows.A_.rows());
-
-  const Eigen::MatrixXd G = basis.transpose() * qp.H * basis;
-  impl_->solver.Solve(G, basis.transpose() * (qp.g + qp.H * z_0), rows.A_ * basis,
-                      rows.b_ - rows.A_ * z_0, impl_->result);
-  DenseSolution out;
-  out.status = impl_->result.status;
-  out.iterations = impl_->result.iterations;
-  out.z = z_0 + basis * impl_->result.x;
-  return out;
+  const Square HB = qp.H * basis;
+  const Square G = basis.transpose() * HB;
+  const Vector g = basis.transpose() * (qp.g + qp.H * z_0);
+  solver_.Solve(G, g, sides_, bounds_, result_);
+  out.status = result_.status;
+  out.iterations = result_.iterations;
+  out.z = z_0 + basis * result_.x;
 }
 
 }  // namespace scoria::controller

@@ -1,39 +1,52 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <memory>
-
 #include <Eigen/Core>
 
-#include "controller/qp/status.h"
+#include "controller/qp/dual_active_set.h"
 
 namespace scoria::controller {
 
-/// General dense problem: min ½ zᵀHz + gᵀz  s.t.  A z = b,  l ≤ C z ≤ u,  lb ≤ z ≤ ub. Bounds
-/// beyond ±1e19 mean none.
+/// General dense problem: min ½ zᵀHz + gᵀz  s.t.  A z = b,  l ≤ C z ≤ u,  lb ≤ z ≤ ub, with at most
+/// 42 variables and 64 rows in C. Bounds beyond ±kNone mean none. Fixed storage: no allocation.
 struct DenseQp {
-  Eigen::MatrixXd H, A, C;
-  Eigen::VectorXd g, b, l, u, lb, ub;
+  static constexpr int kMaxVars = 42, kMaxRows = 64;
+  static constexpr double kNone = 1e19;
+  using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxVars, kMaxVars>;
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxRows, kMaxVars>;
+  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxVars, 1>;
+  using RowVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxRows, 1>;
+  Square H, A;
+  Rows C;
+  Vector g, b, lb, ub;
+  RowVector l, u;
 };
 
 struct DenseSolution {
   SolveStatus status = SolveStatus::kNumerical;
   int iterations = 0;
-  Eigen::VectorXd z;
+  DenseQp::Vector z;
 };
 
-/// Solves any DenseQp with up to 42 variables: eliminates the equalities by an orthonormal basis of
-/// their null space, then runs the dual active set on what is left. For benchmarks and
-/// cross-checks; it allocates.
+/// Eliminates the equalities by an orthonormal basis of their null space, then runs the dual active
+/// set on what is left.
 class DenseQpSolver {
  public:
-  DenseQpSolver();
-  ~DenseQpSolver();
-  [[nodiscard]] DenseSolution Solve(const DenseQp& qp);
+  void Solve(const DenseQp& qp, DenseSolution& out) noexcept;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  static constexpr int kMaxSides = 2 * (DenseQp::kMaxVars + DenseQp::kMaxRows);
+  using Solver = DualActiveSet<DenseQp::kMaxVars, kMaxSides>;
+
+  /// Collects a z ≥ b from two-sided rows, leaving out infinite sides.
+  void Add(const Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, DenseQp::kMaxVars>& a,
+           double low, double high) noexcept;
+
+  Eigen::Index num_sides_ = 0;
+  Solver::Rows sides_;
+  Solver::RowVector bounds_;
+  Solver solver_;
+  Solver::Result result_;
 };
 
 }  // namespace scoria::controller

@@ -8,6 +8,7 @@
 #include <Eigen/Cholesky>
 
 #include "controller/qp/status.h"
+#include "core/math/cholesky.h"
 #include "core/math/types.h"
 
 namespace scoria::controller {
@@ -16,14 +17,16 @@ namespace scoria::controller {
 ///   min ½ xᵀGx + gᵀx   s.t.  A x ≥ b,
 /// with at most kVars variables and kRows rows. Starts at the unconstrained optimum and adds the
 /// most violated row until none is left, so an easy problem costs one Cholesky factorisation. Owns
-/// its memory: no allocation. Source: [Goldfarb1983], algorithm 2.
-template <int kVars, int kRows>
+/// its memory: no allocation. With kSize the number of variables is fixed, which is faster.
+/// Source: [Goldfarb1983], algorithm 2.
+template <int kVars, int kRows, int kSize = Eigen::Dynamic>
 class DualActiveSet {
  public:
-  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kVars, 1>;
-  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kVars, kVars>;
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, kRows, kVars>;
+  using Vector = Eigen::Matrix<double, kSize, 1, 0, kVars, 1>;
+  using Matrix = Eigen::Matrix<double, kSize, kSize, 0, kVars, kVars>;
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, kSize, Eigen::RowMajor, kRows, kVars>;
   using RowVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kRows, 1>;
+  using Active = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kVars, 1>;
 
   struct Result {
     SolveStatus status = SolveStatus::kNumerical;
@@ -36,16 +39,14 @@ class DualActiveSet {
   void Solve(const Matrix& G, const Vector& g, const Rows& A, const RowVector& b, Result& out,
              double tolerance = 1e-11) noexcept {
     const Eigen::Index n = G.rows(), m = A.rows();
-    llt_.compute(G);
     out.iterations = 0;
-    if (llt_.info() != Eigen::Success) {
+    if (!Factorize(G)) {
       out.status = SolveStatus::kNumerical;
       out.x = Vector::Constant(n, std::numeric_limits<double>::quiet_NaN());
       return;
     }
-    out.x = llt_.solve(-g);
-    J_ = Matrix::Identity(n, n);
-    llt_.matrixU().solveInPlace(J_);  // J = L⁻ᵀ
+    const Vector y = J_.transpose().lazyProduct(-g);
+    out.x = J_.lazyProduct(y);
     num_active_ = 0;
     is_active_.fill(false);
     out.status = SolveStatus::kIterationLimit;
@@ -61,6 +62,24 @@ class DualActiveSet {
   }
 
  private:
+  /// J = L⁻ᵀ of G = L Lᵀ.
+  [[nodiscard]] bool Factorize(const Matrix& G) noexcept {
+    const Eigen::Index n = G.rows();
+    if constexpr (kSize != Eigen::Dynamic) {
+      Matrix L = G;
+      Eigen::Matrix<double, kSize, kSize, Eigen::RowMajor> inverse;
+      inverse.setIdentity();
+      if (!core::FactorCholesky<kSize>(L)) return false;
+      core::SolveLower<kSize, kSize>(L, inverse);
+      J_ = inverse.transpose();
+      return true;
+    }
+    llt_.compute(G);
+    J_ = Matrix::Identity(n, n);
+    llt_.matrixU().solveInPlace(J_);
+    return llt_.info() == Eigen::Success;
+  }
+
   [[nodiscard]] Eigen::Index MostViolated(const Rows& A, const RowVector& b, const Vector& x,
                                           double tolerance) const noexcept {
     Eigen::Index worst = -1;
@@ -68,9 +87,10 @@ class DualActiveSet {
     for (Eigen::Index i = 0; i < A.rows(); ++i) {
       if (is_active_[static_cast<std::size_t>(i)]) continue;
       const double value = A.row(i).dot(x) - b[i];
+      if (value >= deepest) continue;
       const double scale = 1.0 + std::abs(b[i]) + A.row(i).cwiseAbs().dot(x.cwiseAbs());
       const double violation = value + tolerance * scale;
-      if (violation < 0.0 && value < deepest) {
+      if (violation < 0.0) {
         deepest = value;
         worst = i;
       }
@@ -85,10 +105,10 @@ class DualActiveSet {
     const Vector normal = A.row(p).transpose();
     double multiplier = 0.0;
     while (out.iterations++ < limit) {
-      Vector d = J_.transpose() * normal;
+      Vector d = J_.transpose().lazyProduct(normal);
       const Eigen::Index free = n - num_active_;
       const Vector z = J_.rightCols(free) * d.tail(free);  // primal direction
-      Vector r = d.head(num_active_);                      // dual direction of the active rows
+      Active r = d.head(num_active_);                      // dual direction of the active rows
       R_.topLeftCorner(num_active_, num_active_)
           .template triangularView<Eigen::Upper>()
           .solveInPlace(r);

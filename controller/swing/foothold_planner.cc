@@ -29,6 +29,9 @@ Vec3 FootholdPlanner::TouchdownAfter(const Tick& t, Leg leg, double delay_s) con
   if (reach.norm() > params_.max_reach_m) reach *= params_.max_reach_m / reach.norm();
   Vec3 p_WF = p_WB + R_WH * robot_.NeutralFoothold(leg) + reach;
   p_WF.z() = t.plane.Height(p_WF) + robot_.legs[leg].foot_radius_m;
+  const Vec3 step = p_WF - last_W_[leg];
+  if (std::abs(step.z()) > params_.max_step_height_m)
+    p_WF = last_W_[leg] + params_.max_step_height_m / std::abs(step.z()) * step;
   return ClipToReach(robot_, leg, p_WB, R_WH, p_WF);
 }
 
@@ -43,6 +46,11 @@ FootholdPlan FootholdPlanner::Plan(const core::WholeBody& wb, const ContactPlan&
                   wb.p_WC.z() - plane.Height(wb.p_WC),
                   core::RpyFromRotation(wb.state.R_WB).z()};
   FootholdPlan plan;
+  plan.plane = plane;
+  for (const Leg leg : kLegs) {
+    if (legs.InContact(leg) || !started_) last_W_[leg] = wb.p_WF[leg];
+  }
+  started_ = true;
   for (const Leg leg : kLegs) {
     const double remaining_stance_s =
         (contacts.duty[leg] - contacts.phase[leg]) * contacts.period_s;

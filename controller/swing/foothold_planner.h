@@ -12,6 +12,7 @@ struct FootholdParams {
   double velocity_gain_s = 0.1;
   int velocity_filter_samples = 20;
   double max_reach_m = 0.28;
+  double max_step_height_m = 0.15;
   template <class Archive>
   void Serialize(Archive& a) {
     a.Field("velocity_gain_s", velocity_gain_s,
@@ -19,12 +20,17 @@ struct FootholdParams {
     a.Field("velocity_filter_samples", velocity_filter_samples, {.min = 1, .max = 100});
     a.Field("max_reach_m", max_reach_m,
             {.min = 0.05, .max = 1.0, .doc = "horizontal distance from the neutral foothold"});
+    a.Field("max_step_height_m", max_step_height_m,
+            {.min = 0.01,
+             .max = 1.0,
+             .doc = "a higher or lower step than this is shortened towards the last foothold"});
   }
 };
 
 /// Footholds after Raibert with the centrifugal term:
 ///   p = p_neutral(touchdown) + T_stance/2 v + k (v − v_cmd) + ½ √(h/g) v × ω_cmd,
-/// on the ground plane, clipped to the reach along the direction from the neutral foothold.
+/// on the ground plane, clipped to the reach along the direction from the neutral foothold, and
+/// shortened where the plane asks for a step above reach.
 /// Source: [Raibert1986], [Kim2019].
 class FootholdPlanner {
  public:
@@ -52,6 +58,8 @@ class FootholdPlanner {
   const core::RobotDescription& robot_;
   double gravity_mps2_;
   core::MovingMean<Vec3, kMaxSamples> velocity_;
+  LegArray<Vec3> last_W_ = ZeroPerLeg();  // where each foot stands or last stood
+  bool started_ = false;
 };
 
 }  // namespace scoria::controller

@@ -37,7 +37,7 @@ struct LogRow {
   double period_s = 0.0, duty = 0.0;
   std::array<double, 4> phase{};
   std::array<bool, 4> planned_stance{}, contact{};
-  std::array<std::uint8_t, 4> leg_mode{};  // 0 stance, 1 swing, 2 early contact, 3 late contact
+  std::array<std::uint8_t, 4> leg_mode{};  // LegMode
   std::array<double, 12> foot_target_m{};
   bool operating = false;     // the walking controller is in charge
   bool fallen = false;        // from the fall until the robot is set on its feet and walks again

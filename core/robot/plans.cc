@@ -29,6 +29,15 @@ LegArray<Vec3> ForcePlan::ForcesFor(const LegArray<bool>& contact, const Vec3& n
   return f;
 }
 
+BodyReference::Stage ForcePlan::BodyAfter(double ahead_s) const noexcept {
+  const double at = std::clamp(ahead_s / dt_s, 0.0, kStages - 1.001);
+  const auto k = static_cast<std::size_t>(at);
+  const double s = at - static_cast<double>(k);
+  const auto mix = [s](const Vec3& a, const Vec3& b) { return Vec3(a + s * (b - a)); };
+  const BodyReference::Stage &a = body[k], &b = body[k + 1];
+  return {mix(a.rpy_rad, b.rpy_rad), mix(a.p_WC, b.p_WC), mix(a.w_WB, b.w_WB), mix(a.v_WC, b.v_WC)};
+}
+
 Mat3 GroundFrame(const Vec3& n_W, double yaw_rad) noexcept {
   const Vec3 heading(std::cos(yaw_rad), std::sin(yaw_rad), 0.0);
   Mat3 R;

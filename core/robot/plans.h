@@ -59,6 +59,7 @@ struct FootholdPlan {
   LegArray<Vec3> next =
       ZeroPerLeg();  // p_WF of the touchdown that the current or coming swing aims at
   std::array<LegArray<Vec3>, kMaxHorizon> stage;
+  GroundPlane plane;  // that the footholds lie on
 };
 
 /// Ground forces on the feet and the body motion that they produce, from the MPC: the first stages
@@ -76,20 +77,26 @@ struct ForcePlan {
   /// each foot's next force, scaled so that their sum along `n_W` is that of the first stage.
   [[nodiscard]] LegArray<Vec3> ForcesFor(const LegArray<bool>& contact,
                                          const Vec3& n_W) const noexcept;
+
+  /// The predicted body, interpolated, `ahead_s` after the state that the plan was made from.
+  [[nodiscard]] BodyReference::Stage BodyAfter(double ahead_s) const noexcept;
 };
 
 /// Axes of the ground: z along its normal, x along the heading. Friction pyramids are aligned with
 /// it.
 [[nodiscard]] Mat3 GroundFrame(const Vec3& n_W, double yaw_rad) noexcept;
 
-enum class LegMode { kStance, kSwing, kEarlyContact, kLateContact };
+/// What a leg does. Bears force: stance, and a swing foot that touched early. In the air: swing,
+/// its lift over an obstacle, and a foot that ought to stand, lowered until it touches or held in
+/// the body frame.
+enum class LegMode { kStance, kSwing, kEarlyContact, kLowering, kHolding, kStumble };
 
 /// The contact set that the body controllers act on: the plan corrected by what the feet felt.
 struct LegPhases {
   LegArray<LegMode> mode{LegMode::kStance};
   LegArray<double> swing_progress;  // 0 lift-off .. 1 planned touchdown
   LegArray<double> swing_s{0.2};
-  LegArray<double> late_s;  // how long a late foot has been waited for
+  LegArray<double> late_s;  // how long a foot that ought to stand has been in the air
   [[nodiscard]] bool InContact(Leg leg) const noexcept {
     return mode[leg] == LegMode::kStance || mode[leg] == LegMode::kEarlyContact;
   }

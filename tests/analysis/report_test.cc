@@ -42,10 +42,7 @@ void WriteCampaign(const fs::path& folder) {
               {std::stod(speed) + 0.002 * k, std::stod(speed), 0.5 + 0.01 * k, 0.3, 2.0});
         const int falls = *arm == 'b' ? 6 : 0;
         for (int k = 0; k < falls; ++k) m.falls.push_back({1.0 * k, "tilt at x 0 m"});
-        const nlohmann::json counters = {{"early_contacts", 1},
-                                         {"mpc_failures", 0},
-                                         {"wbc_failures", 0},
-                                         {"wbc_torque_drops", 0}};
+        const nlohmann::json counters = {{"early_contact", 1}, {"mpc_failure", 0}};
         const nlohmann::json terrain = ToJson(
             {.nu_1m_m = 0.07, .hurst = 0.6, .slope_mean_rad = 0.2, .materials = {{"tuff", 1.0}}});
         nlohmann::json result = {{"end", "completed"},

@@ -81,6 +81,22 @@ TEST(Determinism, OneAndTwoWorkersGiveTheSameBits) {
       << "a finished campaign is not walked again";
 }
 
+TEST(Determinism, MpcOnItsOwnThreadGivesTheSameBits) {
+  for (const int latency : {0, 1, 3}) {
+    std::vector<std::uint64_t> hashes;
+    for (const char* threaded : {"false", "true"}) {
+      const Scenario scenario = test::LoadScenario(
+          "rough", {fmt::format("controller.mpc.threaded={}", threaded),
+                    fmt::format("controller.mpc.latency_ticks={}", latency), "duration_s=4"});
+      const core::RobotDescription robot = core::LoadRobot(scenario.robot);
+      const terrains::Heightfield ground =
+          terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);
+      hashes.push_back(RunEpisode(scenario, robot, ground, {}).state_hash);
+    }
+    EXPECT_EQ(hashes[0], hashes[1]) << "latency " << latency;
+  }
+}
+
 TEST(Campaign, DeadWorkerIsAnOutcomeNotTheEnd) {
   const test::TemporaryFolder folder;
   const Campaign campaign = SmallCampaign(folder.path());

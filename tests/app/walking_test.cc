@@ -51,7 +51,8 @@ TEST_P(FlatGround, WalksAsCommanded) {
   scenario.operation = VelocityProgramme{{{0.0, c.v_x, c.v_y, c.w_z}}};
   const Outcome o = Walk(scenario);
   EXPECT_EQ(o.result.falls, 0);
-  EXPECT_EQ(o.result.counters.mpc_failures + o.result.counters.wbc_failures, 0u);
+  for (const Count failure : {Count::kMpcFailure, Count::kWbcFailure, Count::kPlanExpired})
+    EXPECT_EQ(o.result.counters[failure], 0u) << core::EnumName(failure);
   const analysis::TrackingErrors& t = o.metrics.tracking;
   EXPECT_NEAR(t.velocity_x_mps, c.v_x, 0.03 * std::abs(c.v_x) + 0.01);
   EXPECT_NEAR(t.velocity_y_mps, c.v_y, 0.03 * std::abs(c.v_y) + 0.01);
@@ -99,6 +100,28 @@ INSTANTIATE_TEST_SUITE_P(Reference, GaitTable,
                                            TableGait{"flying_trot", 0.6}, TableGait{"pace", 0.3},
                                            TableGait{"pronk", 0.3}),
                          [](const auto& info) { return std::string(info.param.name); });
+
+// Every hundredth tick of MPC and WBC fails, returns NaN or is late: the robot walks on, and the
+// controller counts what was played.
+TEST(SolverFaults, OnRoughGroundAreMetAndCounted) {
+  for (const char* gait : {"ags", "sgs"}) {
+    const Scenario scenario =
+        test::LoadScenario("rough", {fmt::format("controller.gait.type={}", gait),
+                                     "solver_faults.share=0.01", "operator.distance_m=10"});
+    bool finite = true;
+    const Outcome o = Walk(scenario, [&](const core::LogRow& row) {
+      for (const double tau : row.tau_Nm) finite = finite && std::isfinite(tau);
+    });
+    EXPECT_TRUE(finite);
+    EXPECT_EQ(o.result.falls, 0) << gait;
+    EXPECT_GE(o.result.walked_m, 9.9) << gait;
+    for (const Count what :
+         {Count::kMpcFailure, Count::kMpcLate, Count::kWbcFailure, Count::kWbcLate}) {
+      EXPECT_GT(o.result.injected[what], 0u) << core::EnumName(what);
+      EXPECT_EQ(o.result.counters[what], o.result.injected[what]) << core::EnumName(what);
+    }
+  }
+}
 
 // Other robots by their files alone: names, signs, zeros, masses of their own.
 class OtherRobot : public ::testing::TestWithParam<const char*> {};

@@ -36,7 +36,7 @@ TEST(Controller, StepNeverAllocates) {
     sim::Sensors sensors(robot, gravity_W, 0.001);
     ControllerParams params;
     params.gait = gait;
-    params.legs.late_contact = LateContact::kLower;
+    params.legs.late_contact = AirborneFoot::kLower;
     Controller controller(params, robot, 9.81, 0.001, Controller::Start::kStanding);
     long allocations = 0;
     for (int step = 0; step < 2500; ++step) {

@@ -59,11 +59,70 @@ TEST(SwingTrajectory, LateFootGoesDownAtItsSpeed) {
   FootholdPlan footholds;
   footholds.next[Leg::kHR] = wb.p_WF[Leg::kHR];
   (void)swing.Plan(wb, legs, footholds);
-  legs.mode[Leg::kHR] = LegMode::kLateContact;
+  legs.mode[Leg::kHR] = LegMode::kLowering;
   legs.late_s[Leg::kHR] = 0.1;
   const FootTarget t = swing.Plan(wb, legs, footholds)[Leg::kHR];
   EXPECT_NEAR(t.p_WF.z(), wb.p_WF[Leg::kHR].z() - 0.03, 1e-12);
   EXPECT_EQ(t.v_WF, Vec3(0.0, 0.0, -0.3));
+}
+
+TEST(SwingTrajectory, HeldFootMovesWithTheBody) {
+  SwingTrajectory swing({}, test::Go2());
+  core::WholeBody wb = Standing();
+  LegPhases legs;
+  FootholdPlan footholds;
+  footholds.next = wb.p_WF;
+  legs.mode[Leg::kFR] = LegMode::kHolding;
+  const Vec3 before = swing.Plan(wb, legs, footholds)[Leg::kFR].p_WF;
+  EXPECT_LT((before - wb.p_WF[Leg::kFR]).norm(), 1e-12);
+  wb.state.p_WB += Vec3(0.1, 0.0, -0.02);
+  wb.state.v_WB = {0.3, 0.0, 0.0};
+  const FootTarget after = swing.Plan(wb, legs, footholds)[Leg::kFR];
+  EXPECT_LT((after.p_WF - before - Vec3(0.1, 0.0, -0.02)).norm(), 1e-12);
+  EXPECT_EQ(after.v_WF, Vec3(0.3, 0.0, 0.0));
+}
+
+TEST(SwingTrajectory, StumbleLiftsTheFootBeforeItGoesOn) {
+  SwingParams params;
+  SwingTrajectory swing(params, test::Go2());
+  core::WholeBody wb = Standing();
+  LegPhases legs;
+  FootholdPlan footholds;
+  footholds.plane.z0_m = -1.0;
+  const Vec3 start = wb.p_WF[Leg::kFL];
+  footholds.next = wb.p_WF;
+  footholds.next[Leg::kFL] = start + Vec3(0.2, 0.0, 0.0);
+  legs.mode[Leg::kFL] = LegMode::kSwing;
+  (void)swing.Plan(wb, legs, footholds);
+  legs.mode[Leg::kFL] = LegMode::kStumble;
+  legs.swing_progress[Leg::kFL] = 0.3;
+  const Vec3 hit = wb.p_WF[Leg::kFL] = start + Vec3(0.05, 0.0, 0.04);
+  EXPECT_LT((swing.Plan(wb, legs, footholds)[Leg::kFL].p_WF - hit).norm(), 1e-12);
+  legs.swing_progress[Leg::kFL] = 0.5;  // two sevenths of the rest: still upwards only
+  const FootTarget rising = swing.Plan(wb, legs, footholds)[Leg::kFL];
+  EXPECT_NEAR(rising.p_WF.x(), hit.x(), 1e-12);
+  EXPECT_GT(rising.p_WF.z(), hit.z() + 0.03);
+  legs.swing_progress[Leg::kFL] = 0.65;  // half of the rest: the apex
+  EXPECT_NEAR(swing.Plan(wb, legs, footholds)[Leg::kFL].p_WF.z(),
+              hit.z() + params.apex_m + params.stumble_lift_m, 1e-9);
+  legs.swing_progress[Leg::kFL] = 1.0;
+  EXPECT_LT((swing.Plan(wb, legs, footholds)[Leg::kFL].p_WF - footholds.next[Leg::kFL]).norm(),
+            1e-9);
+}
+
+TEST(SwingTrajectory, ApexCountsFromTheGroundBetweenTheEnds) {
+  SwingParams params;
+  SwingTrajectory swing(params, test::Go2());
+  const core::WholeBody wb = Standing();
+  LegPhases legs;
+  FootholdPlan footholds;
+  footholds.next = wb.p_WF;
+  footholds.plane.z0_m = 0.05;  // both ends lie in a hollow of the plane
+  legs.mode[Leg::kFL] = LegMode::kSwing;
+  (void)swing.Plan(wb, legs, footholds);
+  legs.swing_progress[Leg::kFL] = 0.5;
+  EXPECT_NEAR(swing.Plan(wb, legs, footholds)[Leg::kFL].p_WF.z(),
+              0.05 + test::Go2().legs[Leg::kFL].foot_radius_m + params.apex_m, 1e-9);
 }
 
 TEST(SwingTrajectory, NextSwingAfterALateFootStartsWhereTheFootIs) {
@@ -72,9 +131,9 @@ TEST(SwingTrajectory, NextSwingAfterALateFootStartsWhereTheFootIs) {
   LegPhases legs;
   FootholdPlan footholds;
   footholds.next = wb.p_WF;
-  for (const LegMode mode : {LegMode::kSwing, LegMode::kLateContact, LegMode::kSwing}) {
+  for (const LegMode mode : {LegMode::kSwing, LegMode::kLowering, LegMode::kSwing}) {
     legs.mode[Leg::kFL] = mode;
-    legs.swing_progress[Leg::kFL] = mode == LegMode::kLateContact ? 1.0 : 0.0;
+    legs.swing_progress[Leg::kFL] = mode == LegMode::kLowering ? 1.0 : 0.0;
     wb.p_WF[Leg::kFL].x() -= 0.1;  // the body moved on in the meantime
     const FootTarget t = swing.Plan(wb, legs, footholds)[Leg::kFL];
     if (mode == LegMode::kSwing) {
@@ -110,6 +169,27 @@ TEST(FootholdPlanner, StepsSymmetricallyAtTheCommandedSpeedAndOutwardsWhenPushed
   EXPECT_LE(far.head<2>().norm(), FootholdParams{}.max_reach_m + 1e-9);
   EXPECT_NEAR(far.y() / far.x(), (0.15 * 0.3 + 0.1 * 0.3) / (0.15 * 3.0 + 0.1 * (3.0 - v)), 0.05);
   EXPECT_GT(far.x(), 0.0);
+}
+
+TEST(FootholdPlanner, StepsAboveReachAreShortened) {
+  ContactPlan contacts;
+  contacts.standing = false;
+  contacts.horizon = 2;
+  contacts.duty = LegArray<double>(0.6);
+  contacts.stance_s = LegArray<double>(0.3);
+  contacts.swing_s = LegArray<double>(0.2);
+  GroundPlane plane;
+  FootholdParams params;
+  params.max_step_height_m = 0.05;
+  FootholdPlanner planner(params, test::Go2(), 9.81);
+  const core::WholeBody wb = Standing({0.4, 0.0, 0.0});
+  BodyReference reference;
+  for (auto& stage : reference.stages) stage.v_WC = {0.4, 0.0, 0.0};
+  (void)planner.Plan(wb, contacts, LegPhases{}, reference, plane);  // learns where the feet stand
+  plane.z0_m = 0.12;                                                // the ground ahead is higher
+  const Vec3 step =
+      planner.Plan(wb, contacts, LegPhases{}, reference, plane).next[Leg::kFL] - wb.p_WF[Leg::kFL];
+  EXPECT_NEAR(step.z(), 0.05, 1e-3);
 }
 
 TEST(ReferencePlanner, FollowsTheGroundPlaneAndHoldsStillWhenStanding) {

@@ -53,10 +53,10 @@ Vec18 Accelerate(const Case& setup, const WbcResult& r) {
 
 // The reduction must satisfy what it eliminated: equations of motion and unmoving (rolling)
 // contacts.
-TEST(TsidNullspace, SolutionObeysMotionContactFrictionAndTorque) {
+TEST(Tsid, SolutionObeysMotionContactFrictionAndTorque) {
   core::Rng rng(11, 0, core::Stream::kSensor);
   TsidParams params;
-  TsidNullspace wbc(params, test::Go2());
+  Tsid wbc(params, test::Go2());
   for (int trial = 0; trial < 60; ++trial) {
     RobotState s = test::RandomState(rng);
     s.w_WB *= 0.3;
@@ -90,9 +90,9 @@ TEST(TsidNullspace, SolutionObeysMotionContactFrictionAndTorque) {
   }
 }
 
-TEST(TsidNullspace, StandingStillNeedsNoAcceleration) {
+TEST(Tsid, StandingStillNeedsNoAcceleration) {
   Case setup(test::StandingState());
-  TsidNullspace wbc({}, test::Go2());
+  Tsid wbc({}, test::Go2());
   const WbcResult r = wbc.Solve(setup.input());
   ASSERT_EQ(r.status, SolveStatus::kOptimal);
   const Vec18 a = Accelerate(setup, r);
@@ -100,7 +100,7 @@ TEST(TsidNullspace, StandingStillNeedsNoAcceleration) {
   EXPECT_LT(a.segment<3>(3).norm(), 0.5);
 }
 
-TEST(TsidNullspace, SwingFootAcceleratesAsAsked) {
+TEST(Tsid, SwingFootAcceleratesAsAsked) {
   Case setup(test::StandingState());
   setup.Swing(Leg::kFR);
   setup.Swing(Leg::kHL);
@@ -108,7 +108,7 @@ TEST(TsidNullspace, SwingFootAcceleratesAsAsked) {
   setup.feet[Leg::kFR].a_WF = {3.0, 0.0, 5.0};
   TsidParams params;
   params.swing_weight = 1e4;
-  TsidNullspace wbc(params, test::Go2());
+  Tsid wbc(params, test::Go2());
   const WbcResult r = wbc.Solve(setup.input());
   const Vec18 a = Accelerate(setup, r);
   const Vec3 a_F = a.head<3>() + a.segment<3>(3).cross(setup.wb.p_BF_W[Leg::kFR]) +
@@ -116,11 +116,83 @@ TEST(TsidNullspace, SwingFootAcceleratesAsAsked) {
   EXPECT_LT((a_F - Vec3(3.0, 0.0, 5.0)).norm(), 0.1);
 }
 
-TEST(TsidNullspace, StretchedLegStaysFinite) {
+// One problem, three forms: the same torques.
+TEST(Tsid, FormulationsGiveTheSameTorques) {
+  core::Rng rng(12, 0, core::Stream::kSensor);
+  TsidParams params;
+  std::vector<std::unique_ptr<Tsid>> forms;
+  for (const auto& [formulation, name] : EnumNames(TsidFormulation{})) {
+    params.formulation = formulation;
+    forms.push_back(std::make_unique<Tsid>(params, test::Go2()));
+  }
+  double worst_Nm = 0.0;
+  for (int trial = 0; trial < 200; ++trial) {
+    RobotState s = test::RandomState(rng);
+    s.w_WB *= 0.3;
+    for (const Leg leg : kLegs) s.qd[leg] *= 0.3;
+    Case setup(s);
+    if (trial % 3 != 0) setup.Swing(Leg::kFL);
+    if (trial % 3 == 2) setup.Swing(Leg::kHR);
+    const WbcResult expected = forms[0]->Solve(setup.input());
+    ASSERT_EQ(expected.status, SolveStatus::kOptimal) << trial;
+    for (std::size_t i = 1; i < forms.size(); ++i) {
+      const WbcResult r = forms[i]->Solve(setup.input());
+      ASSERT_EQ(r.status, SolveStatus::kOptimal) << trial;
+      for (const Leg leg : kLegs)
+        worst_Nm = std::max(
+            worst_Nm,
+            (r.command.tau_Nm[leg] - expected.command.tau_Nm[leg]).lpNorm<Eigen::Infinity>());
+    }
+  }
+  EXPECT_LT(worst_Nm, 1e-6);
+}
+
+TEST(Tsid, StretchedLegIsLeftToTheDenseForm) {
+  RobotState s = test::StandingState();
+  s.q[Leg::kHL] = {0.0, 0.0, -1e-4};
+  const Case setup(s);
+  Tsid wbc({}, test::Go2());
+  const WbcResult r = wbc.Solve(setup.input());
+  EXPECT_EQ(r.status, SolveStatus::kOptimal);
+  EXPECT_TRUE(r.singular_leg);
+  s.q[Leg::kHL] = test::StandingState().q[Leg::kHL];
+  EXPECT_FALSE(wbc.Solve(Case(s).input()).singular_leg);
+}
+
+TEST(InverseDynamics, StandingTorquesCarryTheWeightThroughTheLegs) {
+  const Case setup(test::StandingState());
+  const auto wbc = MakeWholeBodyController(InverseDynamicsParams{}, test::Go2());
+  const WbcResult r = wbc->Solve(setup.input());
+  const WbcResult expected = Tsid({}, test::Go2()).Solve(setup.input());
+  ASSERT_EQ(r.status, SolveStatus::kOptimal);
+  for (const Leg leg : kLegs) {
+    EXPECT_LT((r.command.tau_Nm[leg] - expected.command.tau_Nm[leg]).norm(), 0.3);
+    EXPECT_LT((r.command.q[leg] - setup.wb.state.q[leg]).norm(), 1e-9) << "nowhere to go";
+    EXPECT_GT(r.command.kp_Nm_per_rad[leg].minCoeff(), 0.0);
+  }
+}
+
+// The commanded joint velocity moves the foot as its target asks, also while the trunk turns.
+TEST(InverseDynamics, SwingJointVelocityFollowsTheFootTarget) {
+  RobotState s = test::StandingState();
+  s.w_WB = {0.1, -0.2, 0.8};
+  s.v_WB = {0.3, 0.1, 0.0};
+  Case setup(s);
+  setup.Swing(Leg::kFR);
+  setup.feet[Leg::kFR].v_WF = {0.7, -0.1, 0.4};
+  const auto wbc = MakeWholeBodyController(InverseDynamicsParams{}, test::Go2());
+  RobotState moved = s;
+  moved.qd[Leg::kFR] = wbc->Solve(setup.input()).command.qd[Leg::kFR];
+  core::WholeBody wb;
+  core::WholeBodyModel(test::Go2(), 9.81).Calc(moved, wb);
+  EXPECT_LT((wb.v_WF[Leg::kFR] - setup.feet[Leg::kFR].v_WF).norm(), 0.05);
+}
+
+TEST(Tsid, StretchedLegStaysFinite) {
   RobotState s = test::StandingState();
   s.q[Leg::kFL] = {0.0, 0.0, -0.001};
   Case setup(s);
-  TsidNullspace wbc({}, test::Go2());
+  Tsid wbc({}, test::Go2());
   const WbcResult r = wbc.Solve(setup.input());
   EXPECT_TRUE(IsUsable(r.status));
   for (const Leg leg : kLegs) EXPECT_TRUE(r.command.tau_Nm[leg].allFinite());

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <utility>
+
+namespace scoria {
+
+/// What did not go to plan. Ticks unless said otherwise.
+enum class Count {
+  kEarlyContact,       // feet
+  kLateContact,        // feet
+  kLostContact,        // feet
+  kStumble,            // feet
+  kMpcFailure,         // solves that failed or were not finite
+  kMpcLate,            // solves that came a tick late
+  kPlanExpired,        // WBC ticks on a stand-in plan because the last good one was too old
+  kWbcFailure,         // solves that failed or were not finite
+  kWbcLate,            // solves that did not come in time: the last command stayed
+  kTorqueRowsDropped,  // solves that were infeasible with torque limits
+  kSingularLeg,        // solves with a stretched stance leg, by the dense form
+  kInverseDynamics,    // WBC ticks answered by inverse dynamics instead
+  kDamping,            // WBC ticks answered by joint damping
+  kJointLimit,         // joints turned back at their limit
+  kTiltStop,           // stops because the trunk tilted too far
+};
+constexpr std::array<std::pair<Count, std::string_view>, 15> EnumNames(Count) {
+  return {{{Count::kEarlyContact, "early_contact"},
+           {Count::kLateContact, "late_contact"},
+           {Count::kLostContact, "lost_contact"},
+           {Count::kStumble, "stumble"},
+           {Count::kMpcFailure, "mpc_failure"},
+           {Count::kMpcLate, "mpc_late"},
+           {Count::kPlanExpired, "plan_expired"},
+           {Count::kWbcFailure, "wbc_failure"},
+           {Count::kWbcLate, "wbc_late"},
+           {Count::kTorqueRowsDropped, "torque_rows_dropped"},
+           {Count::kSingularLeg, "singular_leg"},
+           {Count::kInverseDynamics, "inverse_dynamics"},
+           {Count::kDamping, "damping"},
+           {Count::kJointLimit, "joint_limit"},
+           {Count::kTiltStop, "tilt_stop"}}};
+}
+
+class Counters {
+ public:
+  [[nodiscard]] std::uint64_t operator[](Count what) const noexcept { return n_[Index(what)]; }
+  void Add(Count what, std::uint64_t times = 1) noexcept { n_[Index(what)] += times; }
+  Counters& operator+=(const Counters& other) noexcept {
+    for (std::size_t i = 0; i < n_.size(); ++i) n_[i] += other.n_[i];
+    return *this;
+  }
+  bool operator==(const Counters&) const = default;
+
+ private:
+  [[nodiscard]] static std::size_t Index(Count what) noexcept {
+    return static_cast<std::size_t>(what);
+  }
+  std::array<std::uint64_t, EnumNames(Count{}).size()> n_{};
+};
+
+}  // namespace scoria
