@@ -214,6 +214,7 @@ Command Operator::Update(const RobotState& state, double time_s, double dt_s) no
     command.v_x_mps = step.v_x_mps;
     command.v_y_mps = step.v_y_mps;
     command.w_z_radps = step.w_z_radps;
+    command.pattern = step.pattern;
   }
   return command;
 }

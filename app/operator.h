@@ -12,12 +12,14 @@ namespace scoria::app {
 
 struct VelocityStep {
   double at_s = 0.0, v_x_mps = 0.0, v_y_mps = 0.0, w_z_radps = 0.0;
+  GaitPattern pattern = GaitPattern::kOwn;
   template <class Archive>
   void Serialize(Archive& a) {
     a.Required("at_s", at_s, {.min = 0.0, .doc = "since the robot stands"});
     a.Field("v_x_mps", v_x_mps, {.min = -5.0, .max = 5.0});
     a.Field("v_y_mps", v_y_mps, {.min = -5.0, .max = 5.0});
     a.Field("w_z_radps", w_z_radps, {.min = -5.0, .max = 5.0});
+    a.Field("pattern", pattern, {.doc = "phase offsets to walk with, in place of the gait's own"});
   }
 };
 

@@ -78,8 +78,10 @@ void Controller::StepPlans(const Command& command, SolverFault fault) noexcept {
   gait.v_xy_mps = wb_.v_WC.head<2>().norm();
   gait.w_z_radps = wb_.state.w_WB.z();
   gait.height_m = wb_.p_WC.z() - reference_.ground_z_m;
-  for (const Leg leg : kLegs)
+  for (const Leg leg : kLegs) {
     gait.early_contact[leg] = out_.legs.mode[leg] == LegMode::kEarlyContact;
+    gait.foot_error_m[leg] = foothold_planner_.DistanceFromNeutral(wb_, leg);
+  }
   gait.dt_s = dt_s;
   gait.horizon = params_.mpc.horizon;
   gait.stage_s = params_.mpc.stage_s;

@@ -20,6 +20,19 @@ double CommandedSpeed(const Command& command, double yaw_arm_m) noexcept {
                   yaw_arm_m * std::abs(command.w_z_radps));
 }
 
+LegArray<double> OffsetsOf(GaitPattern pattern) noexcept {
+  switch (pattern) {
+    case GaitPattern::kWalk:
+      return TimingOf(NamedGait::kStaticWalk).offset;
+    case GaitPattern::kPace:
+      return TimingOf(NamedGait::kPace).offset;
+    case GaitPattern::kTrot:
+    case GaitPattern::kOwn:
+      break;
+  }
+  return TimingOf(NamedGait::kTrot).offset;
+}
+
 /// Decides between walking and standing, with hysteresis on the body speed.
 class WalkSwitch {
  public:
@@ -35,65 +48,174 @@ class WalkSwitch {
   bool walking_ = false;
 };
 
-class SimpleGait final : public GaitSequencer {
+/// What all gaits share: the clock of the phases, standing, and single steps while standing.
+class PhasedGait : public GaitSequencer {
+ public:
+  explicit PhasedGait(const StandParams& stand) noexcept : stand_(stand), walk_(stand) {}
+
+  ContactPlan Plan(const GaitInput& in) noexcept final {
+    GaitTiming timing = Timing(in);
+    if (in.command.pattern != GaitPattern::kOwn) timing.offset = OffsetsOf(in.command.pattern);
+    const bool walking = timing.duty < 1.0 && walk_.Update(in.command, in.v_xy_mps);
+    if (!walking) timing = StandingTiming(in, timing);
+    engine_.Update(timing, in.dt_s, walking,
+                   ends_swings_early() ? in.early_contact : LegArray<bool>(false));
+    return engine_.Predict(in.horizon, in.stage_s);
+  }
+
+ private:
+  [[nodiscard]] virtual GaitTiming Timing(const GaitInput& in) noexcept = 0;
+  /// Whether an early touchdown starts the next stance at once.
+  [[nodiscard]] virtual bool ends_swings_early() const noexcept { return true; }
+
+  /// While standing, the foot that is furthest from its place steps there if it is far enough.
+  [[nodiscard]] GaitTiming StandingTiming(const GaitInput& in, const GaitTiming& timing) noexcept {
+    constexpr double kSwingShare = 1.0 / 3.0;
+    GaitTiming step = timing;
+    step.period_s = stand_.correction_period_s;
+    step.duty = 1.0 - kSwingShare;
+    if (!engine_.standing()) {
+      rest_s_ = 0.0;
+      return correcting_ ? step : timing;
+    }
+    correcting_ = false;
+    rest_s_ += in.dt_s;
+    const auto worst = std::max_element(in.foot_error_m.begin(), in.foot_error_m.end());
+    if (*worst <= stand_.correct_above_m || rest_s_ < step.duty * step.period_s) return timing;
+    correcting_ = true;
+    engine_.Step(kLegs[static_cast<std::size_t>(worst - in.foot_error_m.begin())], step);
+    return step;
+  }
+
+  StandParams stand_;
+  WalkSwitch walk_;
+  PhaseEngine engine_;
+  double rest_s_ = 0.0;
+  bool correcting_ = false;
+};
+
+class AdaptedSpeed {
+ public:
+  explicit AdaptedSpeed(const SpeedParams& params) noexcept
+      : params_(params), filter_(params.filter_samples) {}
+  [[nodiscard]] double Update(const GaitInput& in) noexcept {
+    const double measured = filter_.Update(in.v_xy_mps);
+    return std::max({measured, params_.yaw_arm_m * std::abs(in.w_z_radps),
+                     params_.command_share * CommandedSpeed(in.command, params_.yaw_arm_m)});
+  }
+
+ private:
+  SpeedParams params_;
+  core::MovingMean<double, kMaxSpeedSamples> filter_;
+};
+
+class SimpleGait final : public PhasedGait {
  public:
   explicit SimpleGait(const SgsParams& params) noexcept
-      : timing_(params.Timing()), walk_(params.stand) {}
-
-  ContactPlan Plan(const GaitInput& in) noexcept override {
-    const bool walking = timing_.duty < 1.0 && walk_.Update(in.command, in.v_xy_mps);
-    engine_.Update(timing_, in.dt_s, walking, LegArray<bool>(false));
-    return engine_.Predict(in.horizon, in.stage_s);
-  }
+      : PhasedGait(params.stand), timing_(params.Timing()) {}
 
  private:
+  GaitTiming Timing(const GaitInput&) noexcept override { return timing_; }
+  bool ends_swings_early() const noexcept override { return false; }
+
   GaitTiming timing_;
-  WalkSwitch walk_;
-  PhaseEngine engine_;
 };
 
-class AdaptiveGait final : public GaitSequencer {
+class AdaptiveGait final : public PhasedGait {
  public:
   explicit AdaptiveGait(const AgsParams& params) noexcept
-      : params_(params), walk_(params.stand), speed_(params.speed_filter_samples) {}
-
-  ContactPlan Plan(const GaitInput& in) noexcept override {
-    const double measured = speed_.Update(in.v_xy_mps);
-    const double v =
-        std::max({measured, params_.yaw_arm_m * std::abs(in.w_z_radps),
-                  params_.command_share * CommandedSpeed(in.command, params_.yaw_arm_m)});
-    GaitTiming timing = params_.law.Timing(v, in.height_m);
-    timing.offset = ToLegArray(params_.offset);
-    engine_.Update(timing, in.dt_s, walk_.Update(in.command, in.v_xy_mps), in.early_contact);
-    return engine_.Predict(in.horizon, in.stage_s);
-  }
+      : PhasedGait(params.stand), params_(params), speed_(params.speed) {}
 
  private:
+  GaitTiming Timing(const GaitInput& in) noexcept override {
+    GaitTiming timing = params_.law.Timing(speed_.Update(in), in.height_m);
+    timing.offset = ToLegArray(params_.offset);
+    return timing;
+  }
+
   AgsParams params_;
-  WalkSwitch walk_;
-  core::MovingMean<double, kMaxSpeedSamples> speed_;
-  PhaseEngine engine_;
+  AdaptedSpeed speed_;
 };
 
-class MatchedGait final : public GaitSequencer {
+class MatchedGait final : public PhasedGait {
  public:
   MatchedGait(const SgsMatchedParams& params, double nominal_height_m) noexcept
-      : params_(params), nominal_height_m_(nominal_height_m), walk_(params.stand) {}
+      : PhasedGait(params.stand), params_(params), nominal_height_m_(nominal_height_m) {}
 
-  ContactPlan Plan(const GaitInput& in) noexcept override {
+ private:
+  GaitTiming Timing(const GaitInput& in) noexcept override {
     const double v = CommandedSpeed(in.command, params_.yaw_arm_m);
     if (v > 0.0) timing_ = params_.law.Timing(v, nominal_height_m_);
     timing_.offset = ToLegArray(params_.offset);
-    engine_.Update(timing_, in.dt_s, walk_.Update(in.command, in.v_xy_mps), LegArray<bool>(false));
-    return engine_.Predict(in.horizon, in.stage_s);
+    return timing_;
   }
+  bool ends_swings_early() const noexcept override { return false; }
 
- private:
   SgsMatchedParams params_;
   double nominal_height_m_;
   GaitTiming timing_;
-  WalkSwitch walk_;
-  PhaseEngine engine_;
+};
+
+/// A band of Froude numbers below `upper` and the gait in it.
+struct Band {
+  double upper;
+  GaitTiming timing;
+};
+constexpr std::array<Band, 4> kBands = {{{0.0024, {0.6, 0.75, {0.0, 0.5, 0.75, 0.25}}},
+                                         {0.1517, {0.5, 0.6, {0.0, 0.5, 0.5, 0.0}}},
+                                         {0.74, {0.4, 0.5, {0.0, 0.5, 0.5, 0.0}}},
+                                         {1.0, {0.3, 0.4, {0.0, 0.5, 0.5, 0.0}}}}};
+
+class BioGait final : public PhasedGait {
+ public:
+  explicit BioGait(const BioParams& params) noexcept
+      : PhasedGait(params.stand), params_(params), speed_(params.speed) {}
+
+ private:
+  GaitTiming Timing(const GaitInput& in) noexcept override {
+    const double v = speed_.Update(in);
+    const double froude = v * v / (params_.gravity_mps2 * std::max(in.height_m, 0.05));
+    const std::size_t band = BandOf(froude);
+    if (band != band_) {
+      from_ = Blend();
+      share_ = 0.0;
+      const double boundary = std::min(kBands[std::min(band, band_)].upper, 0.95);
+      const double mean_period_s = 0.5 * (from_.period_s + kBands[band].timing.period_s);
+      blend_s_ = 2.0 * (1.0 - boundary) * mean_period_s;
+      band_ = band;
+    }
+    share_ = std::min(1.0, share_ + in.dt_s / blend_s_);
+    return Blend();
+  }
+
+  /// The present band, unless a boundary has been passed by the hysteresis.
+  [[nodiscard]] std::size_t BandOf(double froude) const noexcept {
+    std::size_t band = band_;
+    while (band + 1 < kBands.size() && froude > kBands[band].upper * (1.0 + params_.hysteresis))
+      ++band;
+    while (band > 0 && froude < kBands[band - 1].upper * (1.0 - params_.hysteresis)) --band;
+    return band;
+  }
+
+  [[nodiscard]] GaitTiming Blend() const noexcept {
+    const GaitTiming& to = kBands[band_].timing;
+    GaitTiming timing;
+    timing.period_s = from_.period_s + share_ * (to.period_s - from_.period_s);
+    timing.duty = from_.duty + share_ * (to.duty - from_.duty);
+    for (const Leg leg : kLegs) {
+      const double difference = to.offset[leg] - from_.offset[leg];
+      const double shortest = difference - std::floor(difference + 0.5);
+      const double offset = from_.offset[leg] + share_ * shortest;
+      timing.offset[leg] = offset - std::floor(offset);
+    }
+    return timing;
+  }
+
+  BioParams params_;
+  AdaptedSpeed speed_;
+  std::size_t band_ = 0;
+  GaitTiming from_ = kBands[0].timing;
+  double share_ = 1.0, blend_s_ = 1.0;
 };
 
 }  // namespace
@@ -157,6 +279,9 @@ std::unique_ptr<GaitSequencer> MakeGaitSequencer(const GaitParams& params,
     }
     std::unique_ptr<GaitSequencer> operator()(const SgsMatchedParams& p) const {
       return std::make_unique<MatchedGait>(p, height_m);
+    }
+    std::unique_ptr<GaitSequencer> operator()(const BioParams& p) const {
+      return std::make_unique<BioGait>(p);
     }
   };
   return std::visit(Visitor{nominal_height_m}, params);

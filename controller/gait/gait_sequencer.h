@@ -19,9 +19,10 @@ struct GaitInput {
   Command command;
   double v_xy_mps = 0.0;  // horizontal speed of the COM
   double w_z_radps = 0.0;
-  double height_m = 0.0;         // COM over the ground plane through the feet
-  LegArray<bool> early_contact;  // swing feet that touched the ground before their time
-  double dt_s = 0.01;            // since the last tick
+  double height_m = 0.0;          // COM over the ground plane through the feet
+  LegArray<bool> early_contact;   // swing feet that touched the ground before their time
+  LegArray<double> foot_error_m;  // how far each foot is from its place under a standing body
+  double dt_s = 0.01;             // since the last tick
   int horizon = 10;
   double stage_s = 0.05;
 };
@@ -107,24 +108,34 @@ struct SgsParams {
   [[nodiscard]] GaitTiming Timing() const noexcept;
 };
 
+/// The speed that a gait adapts to: the largest of the filtered measured one, that of a foot at
+/// `yaw_arm_m` while turning, and a share of the commanded one (else it would never start).
+struct SpeedParams {
+  int filter_samples = 20;
+  double yaw_arm_m = 0.3;
+  double command_share = 0.5;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Field("filter_samples", filter_samples,
+            {.min = 1, .max = 100, .doc = "moving mean of the measured speed, in gait ticks"});
+    a.Field("yaw_arm_m", yaw_arm_m, {.min = 0.0, .max = 1.0, .doc = "speed floor per yaw rate"});
+    a.Field("command_share", command_share,
+            {.min = 0.0, .max = 1.0, .doc = "speed floor as a share of the command"});
+  }
+};
+
 /// Adaptive gait sequencer of the paper.
 struct AgsParams {
   static constexpr const char* kType = "ags";
   StrideLaw law;
   std::array<double, 4> offset = {0.0, 0.5, 0.5, 0.0};
-  int speed_filter_samples = 20;
-  double yaw_arm_m = 0.3;
-  double command_share = 0.5;
+  SpeedParams speed;
   StandParams stand;
   template <class Archive>
   void Serialize(Archive& a) {
     a.Field("law", law);
     a.Field("offset", offset, {.min = 0.0, .max = 1.0, .doc = "FL, FR, HL, HR"});
-    a.Field("speed_filter_samples", speed_filter_samples,
-            {.min = 1, .max = 100, .doc = "moving mean of the measured speed, in gait ticks"});
-    a.Field("yaw_arm_m", yaw_arm_m, {.min = 0.0, .max = 1.0, .doc = "speed floor per yaw rate"});
-    a.Field("command_share", command_share,
-            {.min = 0.0, .max = 1.0, .doc = "speed floor as a share of the command"});
+    a.Field("speed", speed);
     a.Field("stand", stand);
   }
 };
@@ -146,7 +157,28 @@ struct SgsMatchedParams {
   }
 };
 
-using GaitParams = std::variant<SgsParams, AgsParams, SgsMatchedParams>;
+/// Gaits of the reference framework by bands of the Froude number, as animals change theirs, with
+/// timing and offsets blended over the reference's number of cycles, 2 (1 − Fr) at the crossed
+/// boundary. Source: the reference framework's table; differs: hysteresis at the boundaries, and a
+/// change of mind starts from where the blend is.
+struct BioParams {
+  static constexpr const char* kType = "bio";
+  double gravity_mps2 = 9.81;
+  double hysteresis = 0.1;
+  SpeedParams speed;
+  StandParams stand;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Field("gravity_mps2", gravity_mps2,
+            {.min = 0.1, .max = 30.0, .doc = "g of the Froude number"});
+    a.Field("hysteresis", hysteresis,
+            {.min = 0.0, .max = 0.9, .doc = "share by which a boundary must be passed"});
+    a.Field("speed", speed);
+    a.Field("stand", stand);
+  }
+};
+
+using GaitParams = std::variant<SgsParams, AgsParams, SgsMatchedParams, BioParams>;
 
 /// @param nominal_height_m COM height that sgs_matched plans with.
 [[nodiscard]] std::unique_ptr<GaitSequencer> MakeGaitSequencer(const GaitParams& params,

@@ -69,14 +69,12 @@ void PhaseEngine::Update(const GaitTiming& timing, double dt_s, bool walking,
   for (const Leg leg : kLegs) {
     double& phase = phase_[leg];
     const bool was_stance = phase < old_duty;
-    // Keep the share of the stance or swing that is done when the duty factor changes.
-    double next = phase;
+    // Keep the share of the stance or swing that is done when the duty factor changes, then move
+    // on.
+    double next = was_stance
+                      ? phase * timing_.duty / old_duty
+                      : (phase - old_duty) * (1.0 - timing_.duty) / (1.0 - old_duty) + timing_.duty;
     if (walking || !was_stance) next += dt_s / timing_.period_s;
-    if (next < old_duty) {
-      next *= timing_.duty / old_duty;
-    } else {
-      next = (next - old_duty) * (1.0 - timing_.duty) / (1.0 - old_duty) + timing_.duty;
-    }
     if (next >= 1.0) next = std::min(next - 1.0, 0.5 * timing_.duty);
     if (touched_down[leg] && next >= timing_.duty) next = 0.0;
     phase = next;
@@ -87,6 +85,13 @@ void PhaseEngine::Update(const GaitTiming& timing, double dt_s, bool walking,
   } else {
     standing_ = all_down;
   }
+}
+
+void PhaseEngine::Step(Leg leg, const GaitTiming& timing) noexcept {
+  timing_ = timing;
+  phase_ = LegArray<double>(0.0);
+  phase_[leg] = timing.duty;
+  standing_ = walking_ = false;
 }
 
 ContactPlan PhaseEngine::Predict(int horizon, double stage_s) const noexcept {

@@ -17,12 +17,20 @@ struct GaitTiming {
 struct StandParams {
   double stop_below_mps = 0.08;
   double step_above_mps = 0.30;
+  double correct_above_m = 0.08;
+  double correction_period_s = 0.6;
   template <class Archive>
   void Serialize(Archive& a) {
     a.Field("stop_below_mps", stop_below_mps,
             {.min = 0.0, .max = 2.0, .doc = "without a command, stand below this body speed"});
     a.Field("step_above_mps", step_above_mps,
             {.min = 0.0, .max = 5.0, .doc = "without a command, start stepping above this speed"});
+    a.Field("correct_above_m", correct_above_m,
+            {.min = 0.01,
+             .max = 10.0,
+             .doc = "a standing foot that is further from its place steps there, one at a time"});
+    a.Field("correction_period_s", correction_period_s,
+            {.min = 0.25, .max = 5.0, .doc = "between two such steps; a third of it in the air"});
   }
 };
 
@@ -37,6 +45,9 @@ class PhaseEngine {
   /// `walking`, feet that are down stay down and the others finish their swing.
   void Update(const GaitTiming& timing, double dt_s, bool walking,
               const LegArray<bool>& touched_down) noexcept;
+
+  /// Out of standing: lifts one foot, which then swings under the timing of the next updates.
+  void Step(Leg leg, const GaitTiming& timing) noexcept;
 
   /// The contact plan over `horizon` stages of `stage_s`, timing held constant.
   [[nodiscard]] ContactPlan Predict(int horizon, double stage_s) const noexcept;

@@ -35,6 +35,11 @@ Vec3 FootholdPlanner::TouchdownAfter(const Tick& t, Leg leg, double delay_s) con
   return ClipToReach(robot_, leg, p_WB, R_WH, p_WF);
 }
 
+double FootholdPlanner::DistanceFromNeutral(const core::WholeBody& wb, Leg leg) const noexcept {
+  const Mat3 R_WH = core::RotationZ(core::RpyFromRotation(wb.state.R_WB).z());
+  return (wb.p_BF_W[leg] - R_WH * robot_.NeutralFoothold(leg)).head<2>().norm();
+}
+
 FootholdPlan FootholdPlanner::Plan(const core::WholeBody& wb, const ContactPlan& contacts,
                                    const LegPhases& legs, const BodyReference& reference,
                                    const GroundPlane& plane) noexcept {

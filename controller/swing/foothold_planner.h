@@ -41,6 +41,9 @@ class FootholdPlanner {
                                   const LegPhases& legs, const BodyReference& reference,
                                   const GroundPlane& plane) noexcept;
 
+  /// Level distance of a foot from its place under the body as it is.
+  [[nodiscard]] double DistanceFromNeutral(const core::WholeBody& wb, Leg leg) const noexcept;
+
  private:
   /// What one tick's footholds have in common.
   struct Tick {

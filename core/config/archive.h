@@ -170,16 +170,13 @@ template <class Variant>
 void ConfigReader::ReadVariant(const ConfigNode& node, const std::string& path, Variant& value) {
   if (node.kind != ConfigNode::Kind::kMap)
     config_detail::ThrowKind(node, path, "a map with a type");
+  // Without a type it is the default's.
   const ConfigNode* type = node.Find("type");
-  const std::string type_path = path + ".type";
-  if (type == nullptr) {
-    throw ConfigError(
-        node.origin, type_path,
-        fmt::format("is missing; choices: {}", fmt::join(config_detail::TypeNames(&value), ", ")));
-  }
+  const std::string name =
+      type != nullptr ? type->scalar : config_detail::TypeNames(&value)[value.index()];
   bool found = false;
   auto try_alternative = [&]<class T>(std::type_identity<T>) {
-    if (found || type->scalar != T::kType) return;
+    if (found || name != T::kType) return;
     found = true;
     T alternative = std::holds_alternative<T>(value) ? std::get<T>(value) : T{};
     ConfigReader reader(node, path);
@@ -192,7 +189,8 @@ void ConfigReader::ReadVariant(const ConfigNode& node, const std::string& path, 
   [&]<class... Ts>(const std::variant<Ts...>*) {
     (try_alternative(std::type_identity<Ts>{}), ...);
   }(&value);
-  if (!found) config_detail::ThrowUnknownChoice(*type, type_path, config_detail::TypeNames(&value));
+  if (!found)
+    config_detail::ThrowUnknownChoice(*type, path + ".type", config_detail::TypeNames(&value));
 }
 
 template <class T>

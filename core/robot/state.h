@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <string_view>
+#include <utility>
 
 #include "core/robot/legs.h"
 
@@ -49,12 +52,23 @@ struct JointCommand {
   bool operator==(const JointCommand&) const = default;
 };
 
+/// In which order the feet go, where the operator asks for one: diagonal pairs, one after the
+/// other, or the pairs of a side.
+enum class GaitPattern { kOwn, kTrot, kWalk, kPace };
+constexpr std::array<std::pair<GaitPattern, std::string_view>, 4> EnumNames(GaitPattern) {
+  return {{{GaitPattern::kOwn, "own"},
+           {GaitPattern::kTrot, "trot"},
+           {GaitPattern::kWalk, "walk"},
+           {GaitPattern::kPace, "pace"}}};
+}
+
 /// What the operator asks for, in the heading frame H.
 struct Command {
   double v_x_mps = 0.0, v_y_mps = 0.0;
   double w_z_radps = 0.0;
   double height_m = 0.0;  // COM over the ground; 0 means the robot's nominal height
   double roll_rad = 0.0, pitch_rad = 0.0;
+  GaitPattern pattern = GaitPattern::kOwn;
   [[nodiscard]] bool IsStop() const noexcept {
     return v_x_mps == 0.0 && v_y_mps == 0.0 && w_z_radps == 0.0;
   }

@@ -48,7 +48,7 @@ TEST(Scenario, ErrorsNameTheOverrideAndTheRule) {
             "--set controller.mpc.horizon=40: controller.mpc.horizon: 40 is outside [2, 20]");
   EXPECT_EQ(ErrorOf({"controller.gait.type=trot"}),
             "--set controller.gait.type=trot: controller.gait.type: unknown \"trot\"; choices: "
-            "ags, sgs, sgs_matched");
+            "ags, bio, sgs, sgs_matched");
   EXPECT_EQ(ErrorOf({"controler.gait=3"}),
             "--set controler.gait=3: controler: unknown key (did you mean \"controller\"?)");
 }

@@ -103,37 +103,154 @@ TEST(Plan, SwingTimesCountDownToTouchdown) {
   }
 }
 
-// Whatever the speed does, phases stay in [0, 1), contacts change only at lift-off and touchdown,
-// and the trot's offsets come back within two cycles once the speed is steady.
-TEST(AdaptiveGait, KeepsContactsConsistentForRandomSpeeds) {
-  core::Rng rng(1, 0, core::Stream::kOperator);
-  for (int profile = 0; profile < 30; ++profile) {
-    const auto gait = MakeGaitSequencer(AgsParams{}, 0.30);
-    double v = 0.3;
-    LegArray<double> phase(0.0);
-    LegArray<bool> stance(true);
-    ContactPlan plan;
-    for (int i = 0; i < 1500; ++i) {
-      if (i % 50 == 0 && i < 1000) v = rng.NextUniform(0.02, 2.0);
-      GaitInput in = Walking(v);
-      in.w_z_radps = i < 1000 ? rng.NextUniform(-1.0, 1.0) : 0.0;
-      plan = gait->Plan(in);
-      for (const Leg leg : kLegs) {
-        EXPECT_GE(plan.phase[leg], 0.0);
-        EXPECT_LT(plan.phase[leg], 1.0);
-        EXPECT_EQ(plan.stance[leg], plan.phase[leg] < plan.duty[leg]);
-        EXPECT_FALSE(i > 0 && stance[leg] && !plan.stance[leg] && phase[leg] < 0.3)
-            << "no lift-off out of early stance";
-        EXPECT_FALSE(i > 0 && !stance[leg] && plan.stance[leg] && plan.phase[leg] > 0.5)
-            << "stance starts at its start";
-      }
-      phase = plan.phase;
-      stance = plan.stance;
-    }
+/// A gait that is watched tick by tick: phases stay in [0, 1) and move on steadily, the plan's
+/// contacts are those of the phases, and feet lift only at the end of a stance and land only at the
+/// end of a swing.
+class Watched {
+ public:
+  explicit Watched(const GaitParams& params) : gait_(MakeGaitSequencer(params, 0.30)) {}
+
+  const ContactPlan& Tick(const GaitInput& in) {
+    const ContactPlan before = plan_;
+    plan_ = gait_->Plan(in);
     for (const Leg leg : kLegs) {
-      const double offset = plan.phase[Leg::kFL] + plan.offset[Leg::kFL] - plan.phase[leg];
-      EXPECT_NEAR(Wrapped(offset - plan.offset[leg]), 0.0, 0.03) << "profile " << profile;
+      EXPECT_GE(plan_.phase[leg], 0.0);
+      EXPECT_LT(plan_.phase[leg], 1.0);
+      EXPECT_EQ(plan_.stance[leg], plan_.standing || plan_.phase[leg] < plan_.duty[leg]);
+      EXPECT_EQ(plan_.stance[leg], plan_.stage_stance[0][leg]);
+      if (ticks_ == 0 || before.standing || plan_.standing) continue;
+      const double done_before = Done(before, leg), done = Done(plan_, leg);
+      if (before.stance[leg] == plan_.stance[leg]) {
+        // A share of the stance or swing, forwards at the clock's pace up to the offset correction.
+        const double pace = in.dt_s / plan_.period_s;
+        const double share = plan_.stance[leg] ? plan_.duty[leg] : 1.0 - plan_.duty[leg];
+        const double correction = plan_.stance[leg] ? 0.5 * pace / share : 0.0;
+        const bool may_rest = plan_.stance[leg] && in.command.IsStop();
+        EXPECT_LE(done - done_before, pace / share + correction + 1e-9);
+        EXPECT_GE(done - done_before, may_rest ? -1e-9 : pace / share - correction - 1e-9);
+      } else {
+        EXPECT_GT(done_before, 0.85) << "ends too early";
+        EXPECT_LT(done, 0.15) << "starts too late";
+      }
     }
+    ++ticks_;
+    return plan_;
+  }
+
+  /// Largest deviation of a phase offset from the one that the plan wants.
+  [[nodiscard]] double OffsetError() const {
+    double worst = 0.0;
+    for (const Leg leg : kLegs) {
+      const double offset = plan_.phase[Leg::kFL] + plan_.offset[Leg::kFL] - plan_.phase[leg];
+      worst = std::max(worst, std::abs(Wrapped(offset - plan_.offset[leg])));
+    }
+    return worst;
+  }
+
+ private:
+  static double Done(const ContactPlan& plan, Leg leg) {
+    const double phase = plan.phase[leg], duty = plan.duty[leg];
+    return plan.stance[leg] ? phase / duty : (phase - duty) / (1.0 - duty);
+  }
+  std::unique_ptr<GaitSequencer> gait_;
+  ContactPlan plan_;
+  int ticks_ = 0;
+};
+
+// Random speeds with stops, reversals and 2 m/s: consistent all along, and in step two cycles after
+// the speed has become steady.
+class RandomSpeeds : public ::testing::TestWithParam<GaitParams> {};
+
+TEST_P(RandomSpeeds, KeepPhasesSteadyContactsConsistentAndOffsetsConverging) {
+  core::Rng rng(1, 0, core::Stream::kOperator);
+  for (int profile = 0; profile < 40; ++profile) {
+    Watched gait(GetParam());
+    double v_wanted = 0.3, v = 0.0;
+    GaitInput in;
+    for (int i = 0; i < 1000; ++i) {
+      if (i % 60 == 0) {
+        const double kind = rng.NextUniform();
+        v_wanted = kind < 0.2 ? 0.0 : kind < 0.4 ? -v_wanted : kind < 0.5 ? 2.0 : rng.NextUniform();
+      }
+      v += std::clamp(v_wanted - v, -0.03, 0.03);  // 3 m/s^2
+      in = Walking(v_wanted);
+      in.v_xy_mps = std::abs(v);
+      in.w_z_radps = v_wanted == 0.0 ? 0.0 : rng.NextUniform(-1.0, 1.0);
+      gait.Tick(in);
+    }
+    in = Walking(rng.NextUniform(0.05, 2.0));
+    double cycles = 0.0;
+    for (int i = 0; i < 30; ++i)
+      cycles = 0.01 / gait.Tick(in).period_s;  // until the filter is full
+    for (cycles = 0.0; cycles < 2.0;) cycles += 0.01 / gait.Tick(in).period_s;
+    EXPECT_LT(gait.OffsetError(), 0.02) << "profile " << profile;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Gaits, RandomSpeeds,
+                         ::testing::Values(GaitParams(AgsParams{}), GaitParams(SgsParams{}),
+                                           GaitParams(BioParams{})));
+
+TEST(AdaptiveGait, TakesNewOffsetsThroughStanceWithinTwoCycles) {
+  core::Rng rng(2, 0, core::Stream::kOperator);
+  for (int trial = 0; trial < 50; ++trial) {
+    Watched gait(AgsParams{});
+    GaitInput in = Walking(0.3);
+    for (const GaitPattern pattern : {GaitPattern::kTrot, GaitPattern::kWalk, GaitPattern::kPace,
+                                      GaitPattern::kTrot, GaitPattern::kPace, GaitPattern::kWalk}) {
+      in.command.pattern = pattern;
+      for (double cycles = 0.0; cycles < 2.0;) cycles += 0.01 / gait.Tick(in).period_s;
+      EXPECT_LT(gait.OffsetError(), 0.02) << core::EnumName(pattern) << ", trial " << trial;
+      const int more = static_cast<int>(rng.NextUniform(0.0, 90.0));
+      for (int i = 0; i < more; ++i) gait.Tick(in);
+    }
+  }
+}
+
+TEST(Standing, FeetOutOfPlaceStepBackOneAtATime) {
+  for (const GaitParams& params : {GaitParams(AgsParams{}), GaitParams(SgsParams{})}) {
+    Watched gait(params);
+    GaitInput in = Walking(0.0);
+    in.foot_error_m = {0.02, 0.12, 0.02, 0.10};
+    LegArray<int> swing_ticks(0);
+    for (int i = 0; i < 400; ++i) {
+      const ContactPlan& plan = gait.Tick(in);
+      int in_the_air = 0;
+      for (const Leg leg : kLegs) {
+        if (plan.stance[leg]) continue;
+        ++in_the_air;
+        ++swing_ticks[leg];
+        in.foot_error_m[leg] = 0.0;  // it lands in its place
+      }
+      EXPECT_LE(in_the_air, 1);
+    }
+    EXPECT_EQ(swing_ticks[Leg::kFL] + swing_ticks[Leg::kHL], 0);
+    EXPECT_NEAR(swing_ticks[Leg::kFR], 20, 1);
+    EXPECT_NEAR(swing_ticks[Leg::kHR], 20, 1);
+  }
+}
+
+// The reference's bands, reached and left with hysteresis, period and duty factor without a jump.
+TEST(BioGait, ChangesByFroudeNumberInABlend) {
+  Watched gait(BioParams{});
+  const auto settle = [&](double v) {
+    ContactPlan plan;
+    for (int i = 0; i < 300; ++i) plan = gait.Tick(Walking(v));
+    return plan;
+  };
+  EXPECT_NEAR(settle(0.07).period_s, 0.6, 1e-9);
+  EXPECT_NEAR(settle(0.3).period_s, 0.5, 1e-9);
+  EXPECT_NEAR(settle(1.0).period_s, 0.4, 1e-9);
+  EXPECT_NEAR(settle(0.65).period_s, 0.4, 1e-9) << "hysteresis";
+  EXPECT_NEAR(settle(0.6).period_s, 0.5, 1e-9);
+  const ContactPlan fast = settle(1.7);
+  EXPECT_NEAR(fast.period_s, 0.3, 1e-9);
+  EXPECT_NEAR(fast.duty[Leg::kFL], 0.4, 1e-9);
+  double last = fast.period_s;
+  for (int i = 0; i < 300; ++i) {
+    const double period_s = gait.Tick(Walking(0.3)).period_s;
+    EXPECT_LT(std::abs(period_s - last), 0.02);
+    last = period_s;
   }
 }
 
