@@ -269,6 +269,35 @@ void AddCourses(const CampaignResults& results, const fs::path& figures, HtmlPag
   AddFigures(courses, figures, page);
 }
 
+/// Wall-clock time of a step by stage, mean over the episodes of each arm.
+void AddTimes(const CampaignResults& results, HtmlPage& page) {
+  std::map<std::string, std::map<std::string, double>> us;  // by stage and arm
+  std::map<std::string, double> episodes, total;
+  for (const EpisodeRecord& e : results.episodes) {
+    if (!e.has_metrics) continue;
+    episodes[e.arm] += 1.0;
+    for (const auto& [stage, time_us] : e.us_per_step) {
+      us[stage][e.arm] += time_us;
+      total[e.arm] += time_us;
+    }
+  }
+  std::vector<std::string> header = {"stage [us per step, share]"};
+  header.insert(header.end(), results.arms.begin(), results.arms.end());
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [stage, per_arm] : us) {
+    std::vector<std::string> row = {stage};
+    for (const std::string& arm : results.arms) {
+      const double time_us = per_arm.contains(arm) ? per_arm.at(arm) : 0.0;
+      row.push_back(episodes[arm] == 0.0 ? "-"
+                                         : fmt::format("{:.2f} ({:.0f} %)", time_us / episodes[arm],
+                                                       100.0 * time_us / total[arm]));
+    }
+    rows.push_back(row);
+  }
+  page.Heading("Where the time goes");
+  page.Table(header, rows);
+}
+
 void AddVideos(const fs::path& folder, HtmlPage& page) {
   std::vector<std::pair<std::string, std::string>> links;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -367,6 +396,7 @@ fs::path WriteReport(const fs::path& folder) {
   AddFigures(ArmFigures(results), figures, page);
   AddCells(results, cells, page);
   AddEnergy(results, cells, page);
+  AddTimes(results, page);
   AddTerrain(results, page);
   AddCourses(results, figures, page);
   AddVideos(folder, page);

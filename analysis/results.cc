@@ -43,6 +43,7 @@ void ReadResult(const fs::path& folder, EpisodeRecord& episode) {
     j.at("walked_m").get_to(episode.walked_m);
     j.at("real_time_factor").get_to(episode.real_time_factor);
     j.at("counters").get_to(episode.counters);
+    episode.us_per_step = j.value("us_per_step", episode.us_per_step);  // not in older results
     episode.terrain = StatisticsFromJson(j.at("terrain"));
     episode.metrics = j.at("metrics").get<EpisodeMetrics>();
     episode.has_metrics = true;

@@ -19,6 +19,7 @@ struct EpisodeRecord {
   bool has_metrics = false;  // false for a crashed worker or a missing result
   int falls = 0, stuck = 0;
   double walked_m = 0.0, real_time_factor = 0.0;
+  std::map<std::string, double> us_per_step;      // wall clock by stage
   std::map<std::string, std::uint64_t> counters;  // what did not go to plan, by name
   terrains::TerrainStatistics terrain;
   EpisodeMetrics metrics;

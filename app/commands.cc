@@ -14,12 +14,13 @@
 #include "analysis/import.h"
 #include "analysis/report.h"
 #include "analysis/video/video.h"
+#include "app/bench.h"
 #include "app/campaign.h"
 #include "app/config_docs.h"
 #include "app/episode_files.h"
 #include "app/inspection.h"
 #include "app/progress.h"
-#include "app/qp_sets.h"
+#include "app/qp_check.h"
 #include "app/scenario.h"
 #include "app/verify.h"
 #include "terrains/generator.h"
@@ -64,15 +65,17 @@ void PrintSummary(const Scenario& scenario, const EpisodeReport& report,
       b.motor_J != 0.0 ? 100.0 * b.error_J / std::abs(b.motor_J) : 0.0);
   fmt::print("  solve times   MPC {:.0f} us (p99 {:.0f}), WBC {:.1f} us (p99 {:.1f})\n",
              m.mpc.median_s * 1e6, m.mpc.p99_s * 1e6, m.wbc.median_s * 1e6, m.wbc.p99_s * 1e6);
-  fmt::print("  real time     {:.1f}x (physics {:.1f} us, controller {:.1f} us per step)\n",
-             report.real_time_factor, r.physics_s / r.duration_s * scenario.physics.step_s * 1e6,
-             r.controller_s / r.duration_s * scenario.physics.step_s * 1e6);
+  fmt::print("  real time     {:.1f}x;", report.real_time_factor);
+  for (const auto& [stage, name] : EnumNames(core::Stage{}))
+    fmt::print(" {} {:.0f} %,", name, 100.0 * r.times[stage] / r.times.sum());
+  fmt::print(" of {:.1f} us per step\n",
+             r.times.sum() / r.duration_s * scenario.physics.step_s * 1e6);
   fmt::print("  state hash    {:016x}\n  files         {}\n", r.state_hash, folder);
 }
 
 void AddRun(CLI::App& app, int& exit_code) {
   struct Options {
-    std::string scenario, out;
+    std::string scenario, out, save_qps;
     std::vector<std::string> set;
     bool json = false, quiet = false;
   };
@@ -81,6 +84,8 @@ void AddRun(CLI::App& app, int& exit_code) {
   run->add_option("scenario", o->scenario, "scenario YAML")->required();
   run->add_option("--set", o->set, "override a key, as operator.speed_mps=0.5");
   run->add_option("--out", o->out, "folder for log and result (default out/NAME)");
+  run->add_option("--save-qps", o->save_qps,
+                  "folder for every MPC and WBC problem with its solution (17 MB per second)");
   run->add_flag("--json", o->json, "print result.json instead of a summary");
   run->add_flag("--quiet", o->quiet, "print nothing");
   run->callback([o, &exit_code] {
@@ -90,6 +95,7 @@ void AddRun(CLI::App& app, int& exit_code) {
     options.folder = o->out.empty() ? std::filesystem::path("out") / scenario.name
                                     : std::filesystem::path(o->out);
     options.interrupted = &g_interrupted;
+    options.save_qps = o->save_qps;
     EpisodeReport report;
     {
       ProgressBar bar(scenario.name);
@@ -192,54 +198,20 @@ void AddRender(CLI::App& app) {
   });
 }
 
-void AddBench(CLI::App& app) {
-  struct Options {
-    std::string folder;
-    int repeats = 5;
-    bool json = false;
-  };
-  auto o = std::make_shared<Options>();
-  CLI::App* bench = app.add_subcommand("bench", "time parts of the program");
-  bench->require_subcommand(1);
-  CLI::App* qp = bench->add_subcommand("qp", "solve and time the QP sets of a folder");
-  qp->add_option("folder", o->folder, "folder of .bin sets")->required();
-  qp->add_option("--repeats", o->repeats, "solves per problem, of which the median counts")
-      ->check(CLI::Range(1, 1000));
-  qp->add_flag("--json", o->json, "print JSON");
-  qp->callback([o] {
-    nlohmann::json json = nlohmann::json::array();
-    for (const QpBenchmark& b : BenchmarkQpSets(o->folder, o->repeats)) {
-      json.push_back({{"file", b.file},
-                      {"kind", b.kind},
-                      {"problems", b.problems},
-                      {"solved", b.solved},
-                      {"worst_error", b.worst_error},
-                      {"worst_violation_N", b.worst_violation},
-                      {"median_us", b.median_us},
-                      {"p99_us", b.p99_us},
-                      {"iterations", b.mean_iterations},
-                      {"warm_problems", b.warm_problems},
-                      {"warm_solved", b.warm_solved},
-                      {"warm_median_us", b.warm_median_us},
-                      {"warm_p99_us", b.warm_p99_us},
-                      {"warm_iterations", b.warm_mean_iterations}});
-      if (!o->json) {
-        fmt::print(
-            "{:16} {:16} {}/{} solved, worst error {:.1e}, violation {:.1e} N, {:.1f} us median, "
-            "{:.1f} "
-            "us p99, {:.1f} iterations\n",
-            b.file, b.kind, b.solved, b.problems, b.worst_error, b.worst_violation, b.median_us,
-            b.p99_us, b.mean_iterations);
-        if (b.warm_problems > 0) {
-          fmt::print(
-              "{:33} {}/{} solved from the tick before, {:.1f} us median, {:.1f} us p99, {:.1f} "
-              "iterations\n",
-              "", b.warm_solved, b.warm_problems, b.warm_median_us, b.warm_p99_us,
-              b.warm_mean_iterations);
-        }
-      }
+void AddCheckQps(CLI::App& app, int& exit_code) {
+  auto folder = std::make_shared<std::string>();
+  CLI::App* check =
+      app.add_subcommand("check-qps", "check the optimality conditions of saved QPs, one by one");
+  check->add_option("folder", *folder, "what run --save-qps wrote")->required();
+  check->callback([folder, &exit_code] {
+    for (const QpCheck& c : CheckQpSets(*folder)) {
+      fmt::print(
+          "{:16} {} problems: primal {:.1e}, dual {:.1e}, stationarity {:.1e}, complementarity "
+          "{:.1e}: {}\n",
+          c.file, c.records, c.primal, c.dual, c.stationarity, c.complementarity,
+          c.Holds() ? "optimal" : "NOT optimal");
+      if (!c.Holds()) exit_code = kFailed;
     }
-    if (o->json) fmt::print("{}\n", json.dump(2));
   });
 }
 
@@ -275,6 +247,7 @@ void AddCommands(CLI::App& app, int& exit_code) {
   AddCampaign(app, exit_code);
   AddReport(app);
   AddBench(app);
+  AddCheckQps(app, exit_code);
   AddInspection(app);
   AddSchema(app);
   AddRender(app);

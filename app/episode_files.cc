@@ -8,12 +8,19 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/terrain_view.h"
+#include "app/qp_recorder.h"
 #include "app/version.h"
 #include "core/files.h"
 #include "terrains/generator.h"
 
 namespace scoria::app {
 namespace {
+
+nlohmann::json TimesToJson(const core::StageTimes& times, double scale) {
+  nlohmann::json json;
+  for (const auto& [stage, name] : EnumNames(core::Stage{})) json[name] = times[stage] * scale;
+  return json;
+}
 
 nlohmann::json CountersToJson(const Counters& counters) {
   nlohmann::json json;
@@ -55,6 +62,12 @@ EpisodeReport RunToFolder(const Scenario& scenario, const RunOptions& options) {
     }
     if (options.on_event) options.on_event(time_s, kind, detail);
   };
+  std::optional<QpRecorder> qps;
+  if (!options.save_qps.empty()) {
+    qps.emplace(options.save_qps, scenario.controller);
+    sinks.on_control = [&](const controller::Controller& controller,
+                           const controller::ControlOutput& out) { qps->Record(controller, out); };
+  }
   if (options.on_progress)
     sinks.on_progress = [&](double time_s) { options.on_progress(time_s, falls); };
 
@@ -63,7 +76,7 @@ EpisodeReport RunToFolder(const Scenario& scenario, const RunOptions& options) {
   report.metrics = accumulator.Finish();
   if (file) file->Close();
   const EpisodeResult& r = report.result;
-  const double wall_s = r.physics_s + r.controller_s,
+  const double wall_s = r.times.sum(),
                simulated_s = std::max(r.duration_s, scenario.physics.step_s);
   report.real_time_factor = wall_s > 0.0 ? simulated_s / wall_s : 0.0;
 
@@ -79,8 +92,7 @@ EpisodeReport RunToFolder(const Scenario& scenario, const RunOptions& options) {
       {"counters", CountersToJson(r.counters)},
       {"unconverged_physics_steps", r.unconverged_steps},
       {"real_time_factor", report.real_time_factor},
-      {"physics_us_per_step", r.physics_s / simulated_s * scenario.physics.step_s * 1e6},
-      {"controller_us_per_step", r.controller_s / simulated_s * scenario.physics.step_s * 1e6},
+      {"us_per_step", TimesToJson(r.times, scenario.physics.step_s / simulated_s * 1e6)},
       {"terrain", terrain},
       {"metrics", report.metrics}};
   core::WriteText(options.folder / "result.json.part", json.dump(2) + "\n");

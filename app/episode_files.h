@@ -15,7 +15,7 @@ namespace scoria::app {
 struct EpisodeReport {
   EpisodeResult result;
   analysis::EpisodeMetrics metrics;
-  double real_time_factor = 0.0;  // simulated time over the wall time of controller and physics
+  double real_time_factor = 0.0;  // simulated time over wall time, without set-up
 };
 
 struct RunOptions {
@@ -23,6 +23,7 @@ struct RunOptions {
   std::function<void(double time_s, int falls)> on_progress;
   std::function<void(double time_s, const std::string& kind, const std::string& detail)> on_event;
   const std::atomic<bool>* interrupted = nullptr;
+  std::filesystem::path save_qps;  // folder for the solved QPs; empty: none
 };
 
 /// Runs one scenario into a folder, which is created.

@@ -2,6 +2,7 @@
 #include "app/qp_sets.h"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -11,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "controller/qp/riccati_ipm.h"
+#include "controller/wbc/tsid_nullspace.h"
 
 namespace scoria::app {
 namespace {
@@ -20,6 +22,7 @@ using controller::OcpQp;
 using controller::OcpStage;
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+constexpr std::streamoff kHeaderBytes = 64;
 constexpr double kGap = 1e-6;  // relative duality gap asked of the interior point method
 
 /// Takes the fields of a record in their order.
@@ -78,7 +81,7 @@ double Violation(const OcpQp& qp, const std::array<Vec12, kMaxHorizon>& u) {
 }
 
 /// The records of a set whose dynamics are forward Euler, or the others.
-QpBenchmark SolveMpcSet(const QpSet& set, bool forward_euler, int repeats) {
+QpBenchmark SolveMpcSet(QpSet& set, bool forward_euler, int repeats) {
   QpBenchmark b;
   b.kind = forward_euler ? "forward Euler" : "zero-order hold";
   std::vector<double> times, warm_times;
@@ -126,31 +129,96 @@ QpBenchmark SolveMpcSet(const QpSet& set, bool forward_euler, int repeats) {
   return b;
 }
 
-QpBenchmark SolveWbcSet(const QpSet& set, int repeats) {
+QpBenchmark SolveWbcSet(QpSet& set, bool nullspace, int repeats) {
   QpBenchmark b;
-  b.kind = "dense";
+  b.kind = nullspace ? "null space" : "dense";
   b.problems = set.size();
   std::vector<double> times;
-  controller::DenseQpSolver solver;
+  const auto dense = std::make_unique<controller::DenseQpSolver>();
+  const auto form = std::make_unique<controller::TsidNullspace>();
   for (int i = 0; i < set.size(); ++i) {
     const QpSet::Wbc problem = set.ReadWbc(i);
-    controller::DenseSolution solution;
-    times.push_back(MedianMicroseconds(
-        repeats, [] {}, [&] { solver.Solve(problem.qp, solution); }));
-    if (solution.status == controller::SolveStatus::kOptimal) ++b.solved;
-    const double error = (solution.z - problem.z).lpNorm<Eigen::Infinity>() /
-                         std::max(1.0, problem.z.lpNorm<Eigen::Infinity>());
+    double error = 0.0;
+    if (nullspace) {
+      controller::TsidSolution solution;
+      times.push_back(MedianMicroseconds(
+          repeats, [] {}, [&] { solution = form->Solve(problem.problem, true); }));
+      if (solution.status == controller::SolveStatus::kOptimal) ++b.solved;
+      b.mean_iterations += static_cast<double>(solution.iterations) / set.size();
+      error = (solution.a - problem.z.head<6>()).lpNorm<Eigen::Infinity>();
+      for (const Leg leg : kLegs) {
+        const Vec3 qdd = problem.z.segment<3>(6 + 3 * static_cast<int>(leg));
+        error = std::max({error, (solution.qdd[leg] - qdd).lpNorm<Eigen::Infinity>(),
+                          (solution.f[leg] - problem.f[leg]).lpNorm<Eigen::Infinity>()});
+      }
+    } else {
+      controller::DenseSolution solution;
+      times.push_back(MedianMicroseconds(
+          repeats, [] {}, [&] { dense->Solve(problem.qp, solution); }));
+      if (solution.status == controller::SolveStatus::kOptimal) ++b.solved;
+      b.mean_iterations += static_cast<double>(solution.iterations) / set.size();
+      error = (solution.z - problem.z).lpNorm<Eigen::Infinity>();
+    }
+    error /= std::max(1.0, problem.z.lpNorm<Eigen::Infinity>());
     b.worst_error = std::max(b.worst_error, std::isfinite(error) ? error : 1e30);
-    b.mean_iterations += static_cast<double>(solution.iterations) / set.size();
   }
   b.median_us = Median(times);
   b.p99_us = Median(times, 0.99);
   return b;
 }
 
+/// The blocks of a dense whole-body problem, z = (q̈, [τ,] f of all feet).
+controller::TsidProblem ToBlocks(const controller::DenseQp& qp, int contact_mask) {
+  const bool full = qp.H.rows() == 42;
+  const int force_0 = full ? 30 : 18;
+  controller::TsidProblem p;
+  p.H_BB = qp.A.topLeftCorner<6, 6>();
+  p.h_B = -qp.b.head<6>();
+  p.G_BB = qp.H.topLeftCorner<6, 6>();
+  p.g_B = qp.g.head<6>();
+  p.G_ff = qp.H.block<12, 12>(force_0, force_0);
+  p.g_f = qp.g.segment<12>(force_0);
+  int contact_row = full ? 18 : 6, cone_row = full ? 0 : 12;
+  const int feet = std::popcount(static_cast<unsigned>(contact_mask));
+  const int rows_per_foot = (static_cast<int>(qp.C.rows()) - cone_row) / std::max(1, feet);
+  for (const Leg leg : kLegs) {
+    const int l = static_cast<int>(leg), joints = 6 + 3 * l, force = force_0 + 3 * l;
+    p.H_Bl[leg] = qp.A.block<6, 3>(0, joints);
+    p.G_Bl[leg] = qp.H.block<6, 3>(0, joints);
+    p.G_ll[leg] = qp.H.block<3, 3>(joints, joints);
+    p.g_l[leg] = qp.g.segment<3>(joints);
+    if (full) {
+      p.H_ll[leg] = qp.A.block<3, 3>(joints, joints);
+      p.h_l[leg] = -qp.b.segment<3>(joints);
+      p.tau_min[leg] = qp.lb.segment<3>(18 + 3 * l);
+      p.tau_max[leg] = qp.ub.segment<3>(18 + 3 * l);
+    } else {  // bounds on τ − h
+      p.H_ll[leg] = qp.C.block<3, 3>(3 * l, joints);
+      p.h_l[leg].setZero();
+      p.tau_min[leg] = qp.l.segment<3>(3 * l);
+      p.tau_max[leg] = qp.u.segment<3>(3 * l);
+    }
+    p.stance[leg] = (contact_mask >> l) % 2 == 1;
+    if (!p.stance[leg]) continue;
+    p.J_B[leg] = qp.A.block<3, 6>(contact_row, 0);
+    p.J[leg] = qp.A.block<3, 3>(contact_row, joints);
+    p.a_c[leg] = qp.b.segment<3>(contact_row);
+    contact_row += 3;
+    p.cone[leg].setZero();  // a fifth row that is missing says 0 >= -1
+    p.cone_min[leg].setConstant(-1.0);
+    for (int row = 0; row < rows_per_foot; ++row, ++cone_row) {
+      const bool low = qp.l[cone_row] > -controller::DenseQp::kNone;
+      const Vec3 side = qp.C.block<1, 3>(cone_row, force).transpose();
+      p.cone[leg].row(row) = (low ? side : Vec3(-side)).transpose();
+      p.cone_min[leg][row] = low ? qp.l[cone_row] : -qp.u[cone_row];
+    }
+  }
+  return p;
+}
+
 }  // namespace
 
-QpSet::QpSet(const fs::path& file) {
+QpSet::QpSet(const fs::path& file) : name_(file.string()) {
   std::ifstream in(file, std::ios::binary);
   char magic[8];
   std::array<std::int32_t, 14> head{};
@@ -170,18 +238,26 @@ QpSet::QpSet(const fs::path& file) {
   meta_ = head[6];
   const auto bytes =
       static_cast<std::uintmax_t>(count_) * static_cast<std::uintmax_t>(record_) * sizeof(double);
-  if (count_ <= 0 || record_ <= 0 || fs::file_size(file) < 64 + bytes ||
+  if (count_ <= 0 || record_ <= 0 ||
+      fs::file_size(file) < static_cast<std::uintmax_t>(kHeaderBytes) + bytes ||
       (IsMpc() && d0_ > kMaxHorizon)) {
     throw std::runtime_error(fmt::format("{}: {} records of {} numbers do not fit the file",
                                          file.string(), count_, record_));
   }
-  data_.resize(bytes / sizeof(double));
-  in.read(reinterpret_cast<char*>(data_.data()), static_cast<std::streamsize>(bytes));
+  file_ = std::move(in);
+  data_.resize(static_cast<std::size_t>(record_));
 }
 
-QpSet::Mpc QpSet::ReadMpc(int index) const {
-  const double* record = data_.data() + static_cast<std::ptrdiff_t>(index) * record_;
-  FieldReader fields(record);
+const double* QpSet::ReadRecord(int index) {
+  const auto bytes = static_cast<std::streamoff>(record_) * std::streamoff{sizeof(double)};
+  file_.seekg(kHeaderBytes + index * bytes);
+  file_.read(reinterpret_cast<char*>(data_.data()), bytes);
+  if (!file_) throw std::runtime_error(fmt::format("{}: record {} cannot be read", name_, index));
+  return data_.data();
+}
+
+QpSet::Mpc QpSet::ReadMpc(int index) {
+  FieldReader fields(ReadRecord(index));
   const int N = d0_;
   const auto meta = fields.Vector(meta_);
   Mpc out;
@@ -197,11 +273,14 @@ QpSet::Mpc QpSet::ReadMpc(int index) const {
   const auto A = fields.Matrix(12 * N, 12), B = fields.Matrix(12 * N, 12), b = fields.Matrix(N, 12);
   const auto Q = fields.Matrix(N + 1, 12), q = fields.Matrix(N + 1, 12), R = fields.Matrix(N, 12),
              r = fields.Matrix(N, 12);
-  const auto u = fields.Matrix(N, 12);
+  const auto u = fields.Matrix(N, 12), x = fields.Matrix(N + 1, 12), pi = fields.Matrix(N + 1, 12),
+             lambda = fields.Matrix(N, 24);
   for (int k = 0; k <= N; ++k) {
     OcpStage& stage = qp.stages[static_cast<std::size_t>(k)];
     stage.Q = Q.row(k).transpose();
     stage.q = q.row(k).transpose();
+    out.x[static_cast<std::size_t>(k)] = x.row(k).transpose();
+    out.pi[static_cast<std::size_t>(k)] = pi.row(k).transpose();
     if (k == N) break;
     stage.E = A.block<3, 3>(12 * k, 6);
     stage.dt_s = A(12 * k + 3, 9);
@@ -211,12 +290,13 @@ QpSet::Mpc QpSet::ReadMpc(int index) const {
     stage.r = r.row(k).transpose();
     for (const Leg leg : kLegs) stage.stance[leg] = stance(k, static_cast<int>(leg)) > 0.5;
     out.u[static_cast<std::size_t>(k)] = u.row(k).transpose();
+    out.lambda[static_cast<std::size_t>(k)] = lambda.row(k).transpose();
   }
   return out;
 }
 
-QpSet::Wbc QpSet::ReadWbc(int index) const {
-  FieldReader fields(data_.data() + static_cast<std::ptrdiff_t>(index) * record_);
+QpSet::Wbc QpSet::ReadWbc(int index) {
+  FieldReader fields(ReadRecord(index));
   const int n = d0_;
   const auto meta = fields.Vector(meta_);
   const auto equalities = static_cast<Eigen::Index>(meta[4]),
@@ -232,10 +312,15 @@ QpSet::Wbc QpSet::ReadWbc(int index) const {
   out.qp.lb = fields.Vector(n);
   out.qp.ub = fields.Vector(n);
   out.z = fields.Vector(n);
+  out.y = fields.Vector(d1_).head(equalities);
+  out.of_rows = fields.Vector(d2_).head(rows);
+  out.of_bounds = fields.Vector(n);
+  out.problem = ToBlocks(out.qp, static_cast<int>(meta[3]));
+  for (const Leg leg : kLegs) out.f[leg] = out.z.segment<3>(n - 12 + 3 * static_cast<int>(leg));
   return out;
 }
 
-std::vector<QpBenchmark> BenchmarkQpSets(const fs::path& folder, int repeats) {
+std::vector<fs::path> FindQpSets(const fs::path& folder) {
   if (!fs::is_directory(folder))
     throw std::runtime_error(fmt::format("{}: not a folder", folder.string()));
   std::vector<fs::path> files;
@@ -245,9 +330,13 @@ std::vector<QpBenchmark> BenchmarkQpSets(const fs::path& folder, int repeats) {
   if (files.empty())
     throw std::runtime_error(fmt::format("{}: holds no .bin file", folder.string()));
   std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::vector<QpBenchmark> BenchmarkQpSets(const fs::path& folder, int repeats) {
   std::vector<QpBenchmark> results;
-  for (const fs::path& file : files) {
-    const QpSet set(file);
+  for (const fs::path& file : FindQpSets(folder)) {
+    QpSet set(file);
     const auto add = [&](QpBenchmark b) {
       b.file = file.filename().string();
       if (b.problems > 0) results.push_back(std::move(b));
@@ -256,7 +345,8 @@ std::vector<QpBenchmark> BenchmarkQpSets(const fs::path& folder, int repeats) {
       add(SolveMpcSet(set, true, repeats));
       add(SolveMpcSet(set, false, repeats));
     } else {
-      add(SolveWbcSet(set, repeats));
+      add(SolveWbcSet(set, true, repeats));
+      add(SolveWbcSet(set, false, repeats));
     }
   }
   return results;

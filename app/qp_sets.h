@@ -2,15 +2,17 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
 #include "controller/qp/dense_qp.h"
 #include "controller/qp/ocp_qp.h"
+#include "controller/wbc/tsid_problem.h"
 
 namespace scoria::app {
 
-/// A file of reference problems with their solutions (format: the README beside them).
+/// A file of problems with their solutions, read record by record. Format: docs/qp_format.md.
 class QpSet {
  public:
   /// Errors: std::runtime_error that names the file and what is wrong.
@@ -22,20 +24,30 @@ class QpSet {
 
   struct Mpc {
     controller::OcpQp qp;
-    std::array<Vec12, kMaxHorizon> u;  // reference solution
+    // Reference solution: forces, states, costates, multipliers of the limits (6 per leg).
+    std::array<Vec12, kMaxHorizon> u;
+    std::array<Vec12, kMaxHorizon + 1> x, pi;
+    std::array<Eigen::Matrix<double, 24, 1>, kMaxHorizon> lambda;
   };
-  [[nodiscard]] Mpc ReadMpc(int index) const;
+  [[nodiscard]] Mpc ReadMpc(int index);
 
   struct Wbc {
-    controller::DenseQp qp;
-    Eigen::VectorXd z;  // reference solution
+    controller::DenseQp qp;           // as it stands
+    controller::TsidProblem problem;  // the same in blocks
+    Eigen::VectorXd z;                // reference solution, and its multipliers
+    Eigen::VectorXd y, of_rows, of_bounds;
+    LegArray<Vec3> f = ZeroPerLeg();  // the forces in it
   };
-  [[nodiscard]] Wbc ReadWbc(int index) const;
+  [[nodiscard]] Wbc ReadWbc(int index);
 
  private:
   std::string magic_;
   int count_ = 0, d0_ = 0, d1_ = 0, d2_ = 0, record_ = 0, meta_ = 0;
-  std::vector<double> data_;
+  [[nodiscard]] const double* ReadRecord(int index);
+
+  std::string name_;
+  std::ifstream file_;
+  std::vector<double> data_;  // of the record that was read last
 };
 
 /// How a set was solved.
@@ -49,6 +61,9 @@ struct QpBenchmark {
   int warm_problems = 0, warm_solved = 0;
   double warm_median_us = 0.0, warm_p99_us = 0.0, warm_mean_iterations = 0.0;
 };
+
+/// The .bin files of a folder, sorted. Errors: std::runtime_error if there are none.
+[[nodiscard]] std::vector<std::filesystem::path> FindQpSets(const std::filesystem::path& folder);
 
 /// Solves every .bin set of a folder and times it, forward-Euler and other dynamics apart: per
 /// problem the median of `repeats`, then median

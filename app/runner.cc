@@ -2,7 +2,6 @@
 #include "app/runner.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -17,9 +16,6 @@ namespace scoria::app {
 namespace {
 
 constexpr int kHashEvery = 100;  // physics steps
-using WallClock = std::chrono::steady_clock;
-
-double Seconds(WallClock::duration d) { return std::chrono::duration<double>(d).count(); }
 
 std::uint64_t HashState(const RobotState& s, std::uint64_t before) {
   core::Hash64 hash;
@@ -97,25 +93,27 @@ class Episode {
 
   /// Sensors, operator, controller, actuation, world.
   void Step() {
-    const auto start = WallClock::now();
+    core::Lap lap(result_.times);
     const double dt = scenario_.physics.step_s;
     const SensorFrame z =
         sensors_.Read(world_.truth(), actuation_.motor_tau_Nm(), step_, give_truth_);
     const Command command = Commanded();
     const controller::SolverFaults faults = DrawSolverFaults();
+    lap.Book(core::Stage::kSensors);
     const controller::ControlOutput& control = controller_->Step(z, command, faults);
-    const auto controlled = WallClock::now();
+    lap = core::Lap(result_.times);
+    result_.times += control.times;
     CountInjected(faults, control);
     Record(z, command, control);
-    const auto recorded = WallClock::now();
+    if (sinks_.on_control) sinks_.on_control(*controller_, control);
+    lap.Book(core::Stage::kRecord);
     world_.SetTrunkWrench(PushForce(), Vec3::Zero());
     const RobotState& state = world_.truth().state;
     world_.Step(actuation_.Update(control.command, state.q, state.qd, dt));
     if (control.operating) operating_s_ += dt;
-    const auto moved = WallClock::now();
+    lap.Book(core::Stage::kPhysics);
     Watch(command);
-    result_.controller_s += Seconds(controlled - start);
-    result_.physics_s += Seconds(moved - recorded);
+    lap.Book(core::Stage::kRecord);
   }
 
   /// The operator's command; none while the robot lies, stands up or has just been placed.

@@ -24,6 +24,7 @@ constexpr std::array<std::pair<EpisodeEnd, std::string_view>, 6> EnumNames(Episo
 struct EpisodeSinks {
   std::function<void(const core::LogRow&, const core::SolveTimes&)> on_row;
   std::function<void(double time_s, const std::string& kind, const std::string& detail)> on_event;
+  std::function<void(const controller::Controller&, const controller::ControlOutput&)> on_control;
   MessageSink* messages = nullptr;
   std::function<void(double time_s)> on_progress;  // a few times per simulated second
   const std::atomic<bool>* interrupted = nullptr;
@@ -37,8 +38,7 @@ struct EpisodeResult {
   std::uint64_t state_hash = 0;        // over every state that was hashed on the way
   Counters counters, injected;         // what did not go to plan; which of it was played
   std::int64_t unconverged_steps = 0;  // of the physics' contact solver
-  double physics_s = 0.0,
-         controller_s = 0.0;  // wall clock of the two, without set-up and recording
+  core::StageTimes times;              // wall clock, without set-up
 };
 
 /// Walks one episode: sensors -> controller -> actuation -> world, every physics step. The same

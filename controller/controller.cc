@@ -48,7 +48,10 @@ Controller::Controller(const ControllerParams& params, const core::RobotDescript
 
 const ControlOutput& Controller::Step(const SensorFrame& z, const Command& command,
                                       const SolverFaults& faults) noexcept {
+  out_.times = {};
+  core::Lap lap(out_.times);
   out_.estimate = estimator_->Update(z);
+  lap.Book(core::Stage::kEstimation);
   out_.mpc_updated = out_.wbc_updated = false;
   if (!operating_) {
     const double since_s = static_cast<double>(clock_.step() - first_step_) * clock_.step_s();
@@ -59,15 +62,23 @@ const ControlOutput& Controller::Step(const SensorFrame& z, const Command& comma
   if (operating_) {
     const bool plans_due = clock_.Due(mpc_every_), body_due = clock_.Due(wbc_every_);
     if (plans_due || body_due) model_.Calc(out_.estimate.state, wb_);
-    if (plans_due) StepPlans(command, faults.mpc);
+    lap.Book(core::Stage::kModel);
+    if (plans_due) {
+      StepPlans(command);
+      lap.Book(core::Stage::kPlans);
+      mpc_.Submit();
+      TakePlan(faults.mpc);
+      lap.Book(core::Stage::kMpc);
+    }
     if (body_due) StepBody(faults.wbc);
+    lap.Book(core::Stage::kBody);
   }
   out_.operating = operating_;
   clock_.Advance();
   return out_;
 }
 
-void Controller::StepPlans(const Command& command, SolverFault fault) noexcept {
+void Controller::StepPlans(const Command& command) noexcept {
   const double dt_s = mpc_every_ * clock_.step_s();
   reference_planner_.ObserveFeet(wb_, out_.estimate.contact, foot_radius_m_);
   reference_ =
@@ -94,8 +105,6 @@ void Controller::StepPlans(const Command& command, SolverFault fault) noexcept {
   out_.ground_z_m = reference_.ground_z_m;
 
   mpc_.input() = {wb_, out_.contacts, out_.legs, reference_, footholds_};
-  mpc_.Submit();
-  TakePlan(fault);
 }
 
 /// The plan that is due becomes the one in force, unless it failed or is late.

@@ -18,6 +18,7 @@
 #include "core/clock.h"
 #include "core/robot/counters.h"
 #include "core/robot/whole_body.h"
+#include "core/stage_times.h"
 
 namespace scoria::controller {
 
@@ -74,6 +75,7 @@ struct ControlOutput {
   SolveStatus mpc_status = SolveStatus::kOptimal, wbc_status = SolveStatus::kOptimal;
   int mpc_iterations = 0, wbc_iterations = 0;
   double mpc_solve_s = 0.0, wbc_solve_s = 0.0;  // wall clock
+  core::StageTimes times;                       // of this step
 };
 
 /// A fault to be played on a solver's next answer: it fails, claims success with NaN, or is late.
@@ -105,7 +107,7 @@ class Controller {
   [[nodiscard]] const WholeBodyController& wbc() const noexcept { return *wbc_; }
 
  private:
-  void StepPlans(const Command& command, SolverFault fault) noexcept;
+  void StepPlans(const Command& command) noexcept;
   void TakePlan(SolverFault fault) noexcept;
   void StepBody(SolverFault fault) noexcept;
   [[nodiscard]] WbcResult SolveBody(const WbcInput& in, SolverFault fault) noexcept;

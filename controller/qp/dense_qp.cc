@@ -18,12 +18,16 @@ DenseQp::Vector Scaling(const DenseQp::Square& H) noexcept {
 
 }  // namespace
 
-void DenseQpSolver::Add(const Side& a, double low, double high) noexcept {
+void DenseQpSolver::Add(const Side& a, double low, double high, Eigen::Index owner) noexcept {
   if (low > -DenseQp::kNone) {
+    owner_[static_cast<std::size_t>(num_sides_)] = owner;
+    sign_[static_cast<std::size_t>(num_sides_)] = -1.0;
     sides_.row(num_sides_) = a;
     bounds_[num_sides_++] = low;
   }
   if (high < DenseQp::kNone) {
+    owner_[static_cast<std::size_t>(num_sides_)] = owner;
+    sign_[static_cast<std::size_t>(num_sides_)] = 1.0;
     sides_.row(num_sides_) = -a;
     bounds_[num_sides_++] = -high;
   }
@@ -49,9 +53,10 @@ void DenseQpSolver::Solve(const DenseQp& qp, DenseSolution& out) noexcept {
   bounds_.resize(kMaxSides);
   for (Eigen::Index i = 0; i < qp.C.rows(); ++i) {
     const double at_0 = qp.C.row(i).dot(z_0);
-    Add(qp.C.row(i) * basis, qp.l[i] - at_0, qp.u[i] - at_0);
+    Add(qp.C.row(i) * basis, qp.l[i] - at_0, qp.u[i] - at_0, i);
   }
-  for (Eigen::Index i = 0; i < n; ++i) Add(basis.row(i), qp.lb[i] - z_0[i], qp.ub[i] - z_0[i]);
+  for (Eigen::Index i = 0; i < n; ++i)
+    Add(basis.row(i), qp.lb[i] - z_0[i], qp.ub[i] - z_0[i], qp.C.rows() + i);
   sides_.conservativeResize(num_sides_, Eigen::NoChange);
   bounds_.conservativeResize(num_sides_);
 
@@ -62,6 +67,14 @@ void DenseQpSolver::Solve(const DenseQp& qp, DenseSolution& out) noexcept {
   out.status = result_.status;
   out.iterations = result_.iterations;
   out.z = z_0 + basis * result_.x;
+  out.of_rows.setZero(qp.C.rows());
+  out.of_bounds.setZero(n);
+  if (out.status != SolveStatus::kOptimal) return;
+  for (Eigen::Index side = 0; side < num_sides_; ++side) {
+    const Eigen::Index owner = owner_[static_cast<std::size_t>(side)];
+    const double multiplier = sign_[static_cast<std::size_t>(side)] * result_.multipliers[side];
+    (owner < qp.C.rows() ? out.of_rows[owner] : out.of_bounds[owner - qp.C.rows()]) += multiplier;
+  }
 }
 
 }  // namespace scoria::controller

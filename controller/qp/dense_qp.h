@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+
 #include <Eigen/Core>
 
 #include "controller/qp/dual_active_set.h"
@@ -26,6 +28,9 @@ struct DenseSolution {
   SolveStatus status = SolveStatus::kNumerical;
   int iterations = 0;
   DenseQp::Vector z;
+  // Multipliers: positive at an upper bound, negative at a lower one.
+  DenseQp::RowVector of_rows;
+  DenseQp::Vector of_bounds;
 };
 
 /// Eliminates the equalities by an orthonormal basis of their null space, then runs the dual active
@@ -40,11 +45,13 @@ class DenseQpSolver {
 
   /// Collects a z ≥ b from two-sided rows, leaving out infinite sides.
   void Add(const Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, DenseQp::kMaxVars>& a,
-           double low, double high) noexcept;
+           double low, double high, Eigen::Index owner) noexcept;
 
   Eigen::Index num_sides_ = 0;
   Solver::Rows sides_;
   Solver::RowVector bounds_;
+  std::array<Eigen::Index, kMaxSides> owner_{};  // row of C, or number of rows + variable
+  std::array<double, kMaxSides> sign_{};
   Solver solver_;
   Solver::Result result_;
 };

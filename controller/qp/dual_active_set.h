@@ -32,6 +32,7 @@ class DualActiveSet {
     SolveStatus status = SolveStatus::kNumerical;
     int iterations = 0;
     Vector x;
+    RowVector multipliers;  // of all rows, when optimal
   };
 
   /// @param G (n×n) symmetric positive definite, @param g (n), @param A (m×n), @param b (m).
@@ -55,6 +56,9 @@ class DualActiveSet {
       const Eigen::Index worst = MostViolated(A, b, out.x, tolerance);
       if (worst < 0) {
         out.status = SolveStatus::kOptimal;
+        out.multipliers.setZero(m);
+        for (Eigen::Index i = 0; i < num_active_; ++i)
+          out.multipliers[active_[static_cast<std::size_t>(i)]] = multipliers_[i];
         return;
       }
       if (!AddRow(A, b, worst, limit, out)) return;

@@ -55,6 +55,8 @@ struct OcpSolution {
   double relative_gap = 0.0;  // Σ slack x multiplier over the tracking cost, at the end
   std::array<Vec12, kMaxHorizon> u;
   std::array<Vec12, kMaxHorizon + 1> x;
+  /// Multipliers of fx ≤ μ fz, −fx ≤ μ fz, fy ≤ μ fz, −fy ≤ μ fz, f_min ≤ fz, fz ≤ f_max.
+  std::array<LegArray<Vec6>, kMaxHorizon> lambda;
 };
 
 /// Σ ½ xᵀQx + qᵀx + ½ uᵀRu + rᵀu of the trajectory that `u` produces from x₀.

@@ -193,6 +193,7 @@ void RiccatiIpm::Extract(const OcpQp& qp, OcpSolution& out) noexcept {
   for (int k = 0; k < qp.horizon; ++k) {
     const auto at = static_cast<std::size_t>(k);
     out.u[at].setZero();
+    out.lambda[at] = LegArray<Vec6>(Vec6::Zero());
     out.x[at] = now_.x[at];
     last_.known[at] = qp.stages[at].stance;
     for (int f = feet_.first[at]; f < feet_.first[at + 1]; ++f) {
@@ -200,6 +201,7 @@ void RiccatiIpm::Extract(const OcpQp& qp, OcpSolution& out) noexcept {
       out.u[at].segment<3>(3 * leg) = now_.u.row(f).transpose().matrix();
       last_.u.row(kNumLegs * k + leg) = now_.u.row(f);
       last_.lambda.row(kNumLegs * k + leg) = lambda_.row(f);
+      out.lambda[at][static_cast<Leg>(leg)] = lambda_.row(f).transpose().matrix();
     }
   }
   out.x[static_cast<std::size_t>(qp.horizon)] = now_.x[static_cast<std::size_t>(qp.horizon)];
@@ -214,15 +216,19 @@ void RiccatiIpm::Solve(const OcpQp& qp, OcpSolution& out) noexcept {
   const int n = feet_.count;
   const double rows = std::max(1, kRows * n);
   Regulator& regulator = this->regulator(qp);
+  double last_cost = 0.0, last_step = 0.0;
+  const double kSettled = 100.0 * params_.tolerance, kFullStep = 0.99;
   for (out.iterations = 0;; ++out.iterations) {
     const double gap = (slack_.topRows(n) * lambda_.topRows(n)).sum();
-    out.relative_gap = gap / std::max(Cost(qp), 1e-3);
+    const double cost = std::max(Cost(qp), 1e-3);
+    out.relative_gap = gap / cost;
     if (!std::isfinite(out.relative_gap)) {
       out.status = SolveStatus::kNumerical;
       last_.valid = false;
       return;
     }
-    if (out.iterations > 0 && out.relative_gap < params_.tolerance) {
+    const bool settled = last_step >= kFullStep && std::abs(cost - last_cost) < kSettled * cost;
+    if (settled && out.relative_gap < params_.tolerance) {
       out.status = SolveStatus::kOptimal;
       break;
     }
@@ -244,7 +250,10 @@ void RiccatiIpm::Solve(const OcpQp& qp, OcpSolution& out) noexcept {
       regulator.Solve(qp, feet_, gradient_, newton_);
       CalcDirections(target, true);
     }
-    TakeStep(qp, MaxSteps());
+    const StepLengths step = MaxSteps();
+    last_step = std::min(step.primal, step.dual);
+    last_cost = cost;
+    TakeStep(qp, step);
   }
   Extract(qp, out);
 }

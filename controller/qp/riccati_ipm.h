@@ -9,7 +9,7 @@ namespace scoria::controller {
 
 struct RiccatiIpmParams {
   double start_complementarity = 1e-2;
-  double tolerance = 1e-4;
+  double tolerance = 1e-6;
   int max_iterations = 40;
   bool warm_start = true;
   template <class Archive>

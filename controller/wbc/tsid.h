@@ -18,9 +18,7 @@ class Tsid final : public WholeBodyController {
 
   [[nodiscard]] WbcResult Solve(const WbcInput& in) noexcept override;
 
-  /// The last problem and its solution, for saving and for tests.
-  [[nodiscard]] const TsidProblem& problem() const noexcept { return problem_; }
-  [[nodiscard]] const TsidSolution& solution() const noexcept { return solution_; }
+  [[nodiscard]] const TsidRecord* last() const noexcept override { return &last_; }
 
  private:
   using Mat36 = TsidProblem::Mat36;
@@ -37,8 +35,7 @@ class Tsid final : public WholeBodyController {
   TsidParams params_;
   const core::RobotDescription& robot_;
   LegArray<Vec3> effort_Nm_;
-  TsidProblem problem_;
-  TsidSolution solution_;
+  TsidRecord last_;
   TsidNullspace nullspace_;
   TsidDense dense_;
 };

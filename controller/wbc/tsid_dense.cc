@@ -117,6 +117,20 @@ TsidSolution TsidDense::Solve(const TsidProblem& p, bool torque_limits) noexcept
     if (p.stance[leg]) out.f[leg] = z.segment<3>(force_at_[leg]);
   }
   CompleteSolution(p, out);
+  int row = 0;
+  for (const Leg leg : kLegs) {
+    if (!p.stance[leg]) continue;
+    out.of_cone[leg] = -solution_.of_rows.segment<5>(row);
+    row += 5;
+  }
+  for (const Leg leg : kLegs) {
+    if (full_) {
+      out.of_tau[leg] = solution_.of_bounds.segment<3>(torque_at_ + JointsAt(leg) - kTrunk);
+    } else if (torque_limits) {
+      out.of_tau[leg] = solution_.of_rows.segment<3>(row);
+      row += 3;
+    }
+  }
   return out;
 }
 

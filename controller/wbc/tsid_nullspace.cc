@@ -134,6 +134,18 @@ TsidSolution TsidNullspace::Solve(const TsidProblem& p, bool torque_limits) noex
     }
     out.tau[leg] = tau_[leg] * z + tau_0_[leg];
   }
+  if (out.status != SolveStatus::kOptimal) return out;
+  Eigen::Index row = 0;
+  for (const Leg leg : kLegs) {
+    if (!p.stance[leg]) continue;
+    out.of_cone[leg] = result_.multipliers.segment<5>(row);
+    row += 5;
+  }
+  for (const Leg leg : kLegs) {
+    if (!torque_limits) break;
+    out.of_tau[leg] = result_.multipliers.segment<3>(row + 3) - result_.multipliers.segment<3>(row);
+    row += 6;
+  }
   return out;
 }
 

@@ -50,6 +50,16 @@ struct TsidSolution {
   bool singular_leg = false;
   Vec6 a = Vec6::Zero();
   LegArray<Vec3> qdd = ZeroPerLeg(), f = ZeroPerLeg(), tau = ZeroPerLeg();
+  // Multipliers: of the cones; of the torques, positive at the upper limit, negative at the lower.
+  LegArray<TsidProblem::Vec5> of_cone{TsidProblem::Vec5::Zero()};
+  LegArray<Vec3> of_tau = ZeroPerLeg();
+};
+
+/// A problem as it was solved.
+struct TsidRecord {
+  TsidProblem problem;
+  TsidSolution solution;
+  bool torque_limits = true;
 };
 
 /// One way to solve a TsidProblem.

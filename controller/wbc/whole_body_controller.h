@@ -7,6 +7,7 @@
 #include "controller/qp/status.h"
 #include "controller/wbc/inverse_dynamics_params.h"
 #include "controller/wbc/tsid_params.h"
+#include "controller/wbc/tsid_problem.h"
 #include "core/robot/plans.h"
 #include "core/robot/whole_body.h"
 
@@ -36,6 +37,8 @@ class WholeBodyController {
  public:
   virtual ~WholeBodyController() = default;
   [[nodiscard]] virtual WbcResult Solve(const WbcInput& in) noexcept = 0;
+  /// The last problem with its solution, for saving; null where there is no optimisation.
+  [[nodiscard]] virtual const TsidRecord* last() const noexcept { return nullptr; }
 };
 
 using WbcParams = std::variant<TsidParams, InverseDynamicsParams>;

@@ -50,6 +50,7 @@ void WriteCampaign(const fs::path& folder) {
                                  {"stuck", 0},
                                  {"walked_m", 50.0},
                                  {"real_time_factor", 15.0},
+                                 {"us_per_step", {{"MPC", 5.0}, {"physics", 15.0}}},
                                  {"counters", counters},
                                  {"terrain", terrain},
                                  {"metrics", m}};

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace scoria::app {
+
+/// `scoria bench qp | model | physics | episode`.
+void AddBench(CLI::App& app);
+
+}  // namespace scoria::app
