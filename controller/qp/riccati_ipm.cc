@@ -207,51 +207,59 @@ void RiccatiIpm::Extract(const OcpQp& qp, OcpSolution& out) noexcept {
   out.x[static_cast<std::size_t>(qp.horizon)] = now_.x[static_cast<std::size_t>(qp.horizon)];
 }
 
+/// Predictor and corrector from the present iterate; leaves the Newton point and the directions
+/// towards it. @returns how far they can be followed.
+RiccatiIpm::StepLengths RiccatiIpm::CalcNewtonStep(const OcpQp& qp, double gap) noexcept {
+  const int n = feet_.count;
+  Regulator& regulator = this->regulator(qp);
+  CalcWeights();
+  CalcGradients(0.0, false);
+  regulator.Factorize(qp, feet_, hessian_);
+  regulator.Solve(qp, feet_, gradient_, newton_);
+  if (n == 0) return {};
+  CalcDirections(0.0, false);
+  StepLengths affine = MaxSteps();
+  affine = {std::min(1.0, affine.primal), std::min(1.0, affine.dual)};
+  const double after = ((slack_.topRows(n) + affine.primal * d_slack_.topRows(n)) *
+                        (lambda_.topRows(n) + affine.dual * d_lambda_.topRows(n)))
+                           .sum();
+  const double ratio = after / gap;
+  const double target = ratio * ratio * ratio * gap / (kRows * n);
+  CalcGradients(target, true);
+  regulator.Solve(qp, feet_, gradient_, newton_);
+  CalcDirections(target, true);
+  return MaxSteps();
+}
+
+/// Stops when the gap is small and the last step was nearly whole and changed little: a small gap
+/// alone may belong to multipliers that do not fit yet. Far below the tolerance it stops anyway,
+/// before rounding spoils the barrier.
 void RiccatiIpm::Solve(const OcpQp& qp, OcpSolution& out) noexcept {
+  constexpr double kWholeStep = 0.97, kLittle = 100.0, kFarBelow = 1e-2, kLeastCost = 1e-3;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (Vec12& u : out.u) u.setConstant(nan);
   out.status = SolveStatus::kIterationLimit;
   Load(qp);
   Start(qp);
-  const int n = feet_.count;
-  const double rows = std::max(1, kRows * n);
-  Regulator& regulator = this->regulator(qp);
-  double last_cost = 0.0, last_step = 0.0;
-  const double kSettled = 100.0 * params_.tolerance, kFullStep = 0.99;
+  bool whole = false;
+  double last_cost = std::numeric_limits<double>::infinity();
   for (out.iterations = 0;; ++out.iterations) {
-    const double gap = (slack_.topRows(n) * lambda_.topRows(n)).sum();
-    const double cost = std::max(Cost(qp), 1e-3);
+    const double gap = (slack_.topRows(feet_.count) * lambda_.topRows(feet_.count)).sum();
+    const double cost = std::max(Cost(qp), kLeastCost);
     out.relative_gap = gap / cost;
     if (!std::isfinite(out.relative_gap)) {
       out.status = SolveStatus::kNumerical;
       last_.valid = false;
       return;
     }
-    const bool settled = last_step >= kFullStep && std::abs(cost - last_cost) < kSettled * cost;
-    if (settled && out.relative_gap < params_.tolerance) {
+    const bool settled = whole && std::abs(cost - last_cost) < kLittle * params_.tolerance * cost;
+    if (out.relative_gap < (settled ? 1.0 : kFarBelow) * params_.tolerance) {
       out.status = SolveStatus::kOptimal;
       break;
     }
     if (out.iterations >= params_.max_iterations) break;
-    CalcWeights();
-    CalcGradients(0.0, false);
-    regulator.Factorize(qp, feet_, hessian_);
-    regulator.Solve(qp, feet_, gradient_, newton_);
-    if (n > 0) {
-      CalcDirections(0.0, false);
-      StepLengths affine = MaxSteps();
-      affine = {std::min(1.0, affine.primal), std::min(1.0, affine.dual)};
-      const double after = ((slack_.topRows(n) + affine.primal * d_slack_.topRows(n)) *
-                            (lambda_.topRows(n) + affine.dual * d_lambda_.topRows(n)))
-                               .sum();
-      const double ratio = after / gap;
-      const double target = ratio * ratio * ratio * gap / rows;
-      CalcGradients(target, true);
-      regulator.Solve(qp, feet_, gradient_, newton_);
-      CalcDirections(target, true);
-    }
-    const StepLengths step = MaxSteps();
-    last_step = std::min(step.primal, step.dual);
+    const StepLengths step = CalcNewtonStep(qp, gap);
+    whole = std::min(step.primal, step.dual) >= kWholeStep;
     last_cost = cost;
     TakeStep(qp, step);
   }

@@ -65,6 +65,7 @@ class RiccatiIpm {
     double primal = 1.0, dual = 1.0;
   };
   [[nodiscard]] StepLengths MaxSteps() const noexcept;
+  [[nodiscard]] StepLengths CalcNewtonStep(const OcpQp& qp, double gap) noexcept;
   void TakeStep(const OcpQp& qp, StepLengths step) noexcept;
   void Extract(const OcpQp& qp, OcpSolution& out) noexcept;
 
