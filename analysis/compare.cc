@@ -176,4 +176,26 @@ Comparison Compare(const CampaignResults& results, const std::string& a, const s
   return c;
 }
 
+std::vector<Cell> AllCells(const CampaignResults& results) {
+  std::vector<Cell> cells;
+  for (const auto& point : AllPoints(results.axes)) {
+    for (const std::string& arm : results.arms) cells.push_back(PoolCell(results, arm, point));
+  }
+  return cells;
+}
+
+std::vector<Comparison> AllComparisons(const CampaignResults& results) {
+  std::vector<Comparison> all;
+  std::vector<std::vector<std::string>> points = {{}};
+  if (!results.axes.empty()) {
+    const auto each = AllPoints(results.axes);
+    points.insert(points.end(), each.begin(), each.end());
+  }
+  for (const auto& point : points) {
+    for (std::size_t a = 1; a < results.arms.size(); ++a)
+      all.push_back(Compare(results, results.arms[0], results.arms[a], point));
+  }
+  return all;
+}
+
 }  // namespace scoria::analysis

@@ -51,4 +51,10 @@ struct Comparison {
 /// "133.5 m (95 %: 37 to 1102 m)", or "> 49 m (no fall in 180 m)".
 [[nodiscard]] std::string MetresPerFall(const RateEstimate& falls);
 
+/// Every arm at every point of the sweep.
+[[nodiscard]] std::vector<Cell> AllCells(const CampaignResults& results);
+
+/// Every arm against the first, over the whole sweep and at each of its points.
+[[nodiscard]] std::vector<Comparison> AllComparisons(const CampaignResults& results);
+
 }  // namespace scoria::analysis

@@ -96,6 +96,7 @@ std::vector<QpCheck> CheckQpSets(const std::filesystem::path& folder) {
     QpSet set(file);
     QpCheck c;
     c.file = file.filename().string();
+    c.exact = !set.IsMpc();
     c.records = set.size();
     for (int i = 0; i < set.size(); ++i) {
       if (set.IsMpc()) {

@@ -40,6 +40,9 @@ Outcome Walk(const Scenario& scenario, const Watch& watch = {}) {
 struct Case {
   const char* gait;
   double v_x, v_y, w_z;
+  friend void PrintTo(const Case& c, std::ostream* out) {
+    *out << fmt::format("{} at ({}, {}) m/s, {} rad/s", c.gait, c.v_x, c.v_y, c.w_z);
+  }
 };
 
 class FlatGround : public ::testing::TestWithParam<Case> {};
@@ -76,12 +79,14 @@ INSTANTIATE_TEST_SUITE_P(
       return name;
     });
 
-// Gaits of the reference's table at a natural speed. Bound and gallops fall still: they need a
-// trajectory of the trunk's pitch, which the reference planner does not have.
+// Gaits of the reference's table at a natural speed. Bound and gallops have weights of their own.
 struct TableGait {
   const char* name;
   double v_x_mps;
   const char* scenario = "flat";
+  friend void PrintTo(const TableGait& g, std::ostream* out) {
+    *out << g.name << " at " << g.v_x_mps << " m/s";
+  }
 };
 class GaitTable : public ::testing::TestWithParam<TableGait> {};
 

@@ -88,6 +88,19 @@ TEST(Config, ErrorsNamePlaceKeyValueAndRule) {
   EXPECT_EQ(ErrorOf("name: [\n").substr(0, 30), "a.yaml:2:1: not valid YAML: en");
 }
 
+struct SquareByDefault {
+  std::variant<Circle, Square> shape = Square{};
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Field("shape", shape);
+  }
+};
+
+TEST(Config, VariantWithoutTypeKeepsItsDefaultsType) {
+  const auto read = ReadConfig<SquareByDefault>(ParseConfig("shape: {edge_m: 1.5}\n", "c.yaml"));
+  EXPECT_EQ(std::get<Square>(read.shape).edge_m, 1.5);
+}
+
 TEST(Config, WrittenConfigReadsBackEqual) {
   Sample sample;
   sample.name = "a: \"quoted\" name # with signs";

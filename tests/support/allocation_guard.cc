@@ -12,8 +12,8 @@ void Count() {
 }  // namespace
 
 // glibc's allocator under its other names: the program's malloc family is replaced, so that nothing
-// escapes. Not under AddressSanitizer, which replaces it itself.
-#ifndef __SANITIZE_ADDRESS__
+// escapes. Not under sanitizers, which replace it themselves.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 extern "C" {
 void* __libc_malloc(std::size_t);
 void* __libc_calloc(std::size_t, std::size_t);
