@@ -103,6 +103,7 @@ Cell PoolCell(const CampaignResults& results, const std::string& arm,
     cell.budget.external_J += m.budget.external_J;
     cell.budget.stored_J += m.budget.stored_J;
     cell.budget.error_J += m.budget.error_J;
+    cell.estimation += m.estimation;
     const double w = m.tracking.samples_s;
     t.samples_s += w;
     const auto add = [w](double& sum, double rmse) { sum += w * rmse * rmse; };

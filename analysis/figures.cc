@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "analysis/compare.h"
+#include "analysis/estimation_metrics.h"
 #include "core/files.h"
 
 namespace scoria::analysis {
@@ -259,9 +260,13 @@ CaptionedFigure TimeFigure(const LogContent& log, const std::string& name) {
     previous_s = r.time_s;
     const double c = std::cos(r.rpy_rad[2]), s = std::sin(r.rpy_rad[2]);
     const double v_x = c * r.v_WB_mps[0] + s * r.v_WB_mps[1];
-    std::vector<double> row = {
-        r.time_s,      (r.com_z_m - r.ground_z_m), (r.ref_p_WC_m[2] - r.ground_z_m), v_x,
-        r.cmd_v_x_mps, r.rpy_rad[0] * kDegrees,    r.rpy_rad[1] * kDegrees};
+    std::vector<double> row = {r.time_s,
+                               (r.com_z_m - r.ground_z_m),
+                               (r.ref_p_WC_m[2] - HeightDrift(r) - r.ground_z_m),
+                               v_x,
+                               r.cmd_v_x_mps,
+                               r.rpy_rad[0] * kDegrees,
+                               r.rpy_rad[1] * kDegrees};
     for (std::size_t leg = 0; leg < 4; ++leg)
       row.push_back(r.f_F_W_N[3 * leg + 2] > 5.0 ? 4.0 - static_cast<double>(leg) : kNan);
     row.push_back(r.period_s);

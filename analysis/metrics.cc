@@ -110,6 +110,7 @@ void MetricsAccumulator::CloseBudget() {
 }
 
 void MetricsAccumulator::AddRow(const core::LogRow& row, const core::SolveTimes& times) {
+  estimation_.AddRow(row);
   if (has_rows_ && row.segment != last_.segment) CloseBudget();
   last_ = row;
   has_rows_ = true;
@@ -188,7 +189,8 @@ void MetricsAccumulator::AddTracking(const core::LogRow& row) {
   t.command_y_mps += row.cmd_v_y_mps;
   t.command_yaw_radps += row.cmd_w_z_radps;
   const auto squared = [](double x) { return x * x; };
-  sum_height_ += squared(row.com_z_m - row.ref_p_WC_m[2]);
+  // The reference lives in the estimator's frame; its drift is no error of tracking.
+  sum_height_ += squared(row.com_z_m + HeightDrift(row) - row.ref_p_WC_m[2]);
   sum_roll_ += squared(row.rpy_rad[0] - row.ref_rpy_rad[0]);
   sum_pitch_ += squared(row.rpy_rad[1] - row.ref_rpy_rad[1]);
   t.samples_s += row.time_s - previous_.time_s;
@@ -243,6 +245,7 @@ EpisodeMetrics MetricsAccumulator::Finish() {
     t.velocity_rmse_mps = std::sqrt(sum_velocity_ / static_cast<double>(stride_rows_));
   m.mpc = mpc_times_.Summarise();
   m.wbc = wbc_times_.Summarise();
+  m.estimation = estimation_.Finish();
   return m;
 }
 
@@ -274,7 +277,8 @@ void to_json(nlohmann::json& j, const EpisodeMetrics& m) {
        {"mpc", m.mpc},
        {"wbc", m.wbc},
        {"falls", m.falls},
-       {"peak_foot_force_N", m.peak_foot_force_N}};
+       {"peak_foot_force_N", m.peak_foot_force_N},
+       {"estimation", m.estimation}};
 }
 
 void from_json(const nlohmann::json& j, EpisodeMetrics& m) {
@@ -294,6 +298,7 @@ void from_json(const nlohmann::json& j, EpisodeMetrics& m) {
   j.at("wbc").get_to(m.wbc);
   j.at("falls").get_to(m.falls);
   j.at("peak_foot_force_N").get_to(m.peak_foot_force_N);
+  m.estimation = j.value("estimation", EstimationMetrics{});  // not in older results
 }
 
 }  // namespace scoria::analysis

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "analysis/estimation_metrics.h"
 #include "core/log/row.h"
 
 namespace scoria::analysis {
@@ -81,6 +82,7 @@ struct EpisodeMetrics {
   TimeQuantiles mpc, wbc;
   double peak_foot_force_N = 0.0;
   std::vector<FallEvent> falls;
+  EstimationMetrics estimation;
 };
 
 /// Accumulates rows as they come, from the runner or from a log.
@@ -123,6 +125,7 @@ class MetricsAccumulator {
   double sum_velocity_ = 0.0, sum_height_ = 0.0, sum_roll_ = 0.0, sum_pitch_ = 0.0;
   long rows_ = 0, stride_rows_ = 0;
   TimeHistogram mpc_times_, wbc_times_;
+  EstimationAccumulator estimation_;
   core::LogRow last_;  // of any kind
   bool has_rows_ = false;
 };

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "analysis/compare.h"
+#include "analysis/estimation_report.h"
 #include "analysis/figures.h"
 #include "analysis/html.h"
 #include "analysis/tables.h"
@@ -307,6 +308,9 @@ fs::path WriteReport(const fs::path& folder) {
   page.Heading("Tracking and time");
   AddFigures(ArmFigures(results), figures, page);
   AddCells(results, cells, page);
+  AddStateEstimation(results, cells, page);
+  AddContactDetection(results, cells, page);
+  AddFigures(ContactFigures(results), figures, page);
   AddEnergy(results, cells, page);
   AddTimes(results, page);
   AddTerrain(results, page);

@@ -22,11 +22,14 @@
 #include "app/progress.h"
 #include "app/qp_check.h"
 #include "app/scenario.h"
+#include "app/replay.h"
 #include "app/verify.h"
 #include "terrains/generator.h"
 
 namespace scoria::app {
 namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 std::atomic<bool> g_interrupted = false;  // the only state that a signal handler may touch
 
@@ -34,12 +37,21 @@ void CatchInterrupts() {
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { g_interrupted = true; });
 }
 
+void PrintEstimation(const char* what, const analysis::EstimationMetrics& m) {
+  const analysis::DriftSummary drift = analysis::SummariseDrift(m);
+  fmt::print(
+      "  {:9} drift {:.2f} % horizontal, {:.2f} % vertical, {:.3f} deg/m yaw; velocity {:.4f} m/s, "
+      "roll {:.2f} deg, pitch {:.2f} deg RMSE; NEES/5 {:.2f}; contact {:.2f} % right\n",
+      what, drift.horizontal_pct, drift.vertical_pct, drift.yaw_deg_per_m, m.velocity_rmse_mps,
+      m.roll_rmse_rad * kDegrees, m.pitch_rmse_rad * kDegrees, m.nees_ratio,
+      100.0 * m.contact.of(analysis::ContactWord::kCounted).Accuracy());
+}
+
 void PrintSummary(const Scenario& scenario, const EpisodeReport& report,
                   const std::string& folder) {
   const EpisodeResult& r = report.result;
   const analysis::EpisodeMetrics& m = report.metrics;
   const analysis::TrackingErrors& t = m.tracking;
-  constexpr double kDegrees = 180.0 / std::numbers::pi;
   fmt::print("{}: {} after {:.1f} s, {:.1f} m walked, {} falls, {} times stuck\n", scenario.name,
              core::EnumName(r.end), r.duration_s, m.distance_m, r.falls, r.stuck);
   fmt::print(
@@ -57,6 +69,7 @@ void PrintSummary(const Scenario& scenario, const EpisodeReport& report,
       "  cost of transport  mech_abs {:.3f}, mech_pos {:.3f}, electrical {:.3f}, battery "
       "{:.3f}\n",
       m.cot_mech_abs, m.cot_mech_pos, m.cot_electrical, m.cot_battery);
+  if (m.estimation.present) PrintEstimation("estimate", m.estimation);
   const analysis::EnergyBudget& b = m.budget;
   fmt::print(
       "  energy ledger {:.0f} J motors, {:.0f} J joints, {:.0f} J ground, {:.0f} J stored, "
@@ -240,6 +253,29 @@ void AddVerify(CLI::App& app, int& exit_code) {
   });
 }
 
+void AddReplay(CLI::App& app, int& exit_code) {
+  struct Options {
+    std::string log;
+    std::vector<std::string> set;
+  };
+  auto o = std::make_shared<Options>();
+  CLI::App* replay = app.add_subcommand(
+      "replay", "estimate again from the inputs that a log holds, as they were or with --set");
+  replay->add_option("log", o->log, "MCAP log that scoria wrote with log.keep=full")->required();
+  replay->add_option("--set", o->set, "override a key, as controller.estimator.type=linear_kf");
+  replay->callback([o, &exit_code] {
+    const ReplayResult result = ReplayLog(o->log, o->set);
+    if (!result.file_problem.empty()) fmt::print("{}\n", result.file_problem);
+    fmt::print("replayed {} steps: {}\n", result.steps,
+               result.identical
+                   ? fmt::format("all {} estimates have the bits of the log", result.rows)
+                   : fmt::format("estimates differ from {:.3f} s on", result.first_difference_s));
+    PrintEstimation("logged", result.logged);
+    PrintEstimation("replayed", result.replayed);
+    if (!result.identical && o->set.empty()) exit_code = kFailed;
+  });
+}
+
 }  // namespace
 
 void AddCommands(CLI::App& app, int& exit_code) {
@@ -252,6 +288,7 @@ void AddCommands(CLI::App& app, int& exit_code) {
   AddSchema(app);
   AddRender(app);
   AddVerify(app, exit_code);
+  AddReplay(app, exit_code);
 }
 
 }  // namespace scoria::app

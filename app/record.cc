@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Cholesky>
+
 #include "core/math/so3.h"
+#include "sim/sensors/sensors.h"
 
 namespace scoria::app {
 namespace {
@@ -30,6 +33,8 @@ enum TopicId {
   kRow,
   kHash,
   kEvent,
+  kStart,
+  kInput,
 };
 
 std::int64_t ToNanoseconds(double time_s) { return std::llround(time_s * 1e9); }
@@ -93,11 +98,9 @@ msg::QuadState MakeQuadState(const StepRecord& r) {
   m.pose.pose.orientation = ToMessage(e.state.R_WB);
   m.twist.twist.linear = ToMessage(e.state.v_WB);
   m.twist.twist.angular = ToMessage(e.state.w_WB);
-  m.acceleration.linear = ToMessage(r.truth.a_WB);
   m.joint_state = MakeJointState(r);
-  m.foot_contact = ToArray(e.contact);
-  m.ground_contact_force = Flatten(r.truth.f_F_W);
-  m.belly_contact = r.truth.trunk_force_N > 0.0;
+  m.foot_contact = ToArray(r.control.contact.contact);
+  m.ground_contact_force = Flatten(r.control.contact.f_F_W);
   return m;
 }
 
@@ -120,7 +123,39 @@ msg::WBCTarget MakeWbcTarget(const StepRecord& r) {
   return m;
 }
 
+/// Normalised error squared of tilt and velocity; zero without a covariance. The velocity's error is
+/// right-invariant, so it is that of the body velocity, turned into W.
+double CalcNees(const RobotState& truth, const controller::StateEstimate& estimate) {
+  if (estimate.P_tilt_v.isZero()) return 0.0;
+  const Mat3 R_error = estimate.state.R_WB * truth.R_WB.transpose();
+  Eigen::Matrix<double, 5, 1> error;
+  error << core::LogSo3(R_error).head<2>(), estimate.state.v_WB - R_error * truth.v_WB;
+  return error.dot(estimate.P_tilt_v.ldlt().solve(error));
+}
+
 }  // namespace
+
+void FillEstimate(const controller::ControlOutput& control, const RobotState& truth,
+                  core::LogRow& row) {
+  const controller::StateEstimate& e = control.estimate;
+  row.est_p_WB_m = ToArray(e.state.p_WB);
+  row.est_v_WB_mps = ToArray(e.state.v_WB);
+  row.est_rpy_rad = ToArray(core::RpyFromRotation(e.state.R_WB));
+  row.nees = CalcNees(truth, e);
+  row.nis = e.nis;
+  row.nis_dof = static_cast<std::uint32_t>(e.nis_dof);
+  const ContactEstimate& c = control.contact;
+  row.est_f_F_W_N = Flatten(c.f_F_W);
+  row.contact = ToArray(c.contact);
+  for (const Leg leg : kLegs) {
+    row.contact_source[static_cast<std::size_t>(leg)] = static_cast<std::uint8_t>(c.source[leg]);
+  }
+  row.contact_sensor = ToArray(c.sensor);
+  row.contact_observer = ToArray(c.observer);
+  row.sensor_healthy = ToArray(c.sensor_healthy);
+  row.sensor_counts = ToArray(c.sensor_counts);
+  row.observer_probability = ToArray(c.observer_probability);
+}
 
 const std::vector<Topic>& RecordedTopics() {
   static const std::vector<Topic> kTopics = {
@@ -139,6 +174,8 @@ const std::vector<Topic>& RecordedTopics() {
       MakeTopic<core::LogRow>("/scoria/row"),
       MakeTopic<msg::StateHash>("/scoria/state_hash"),
       MakeTopic<msg::Event>("/scoria/event"),
+      MakeTopic<msg::ControllerStart>("/scoria/controller_start"),
+      MakeTopic<msg::ControllerInput>("/scoria/controller_input"),
   };
   return kTopics;
 }
@@ -184,10 +221,12 @@ core::LogRow MakeRow(const StepRecord& r) {
   row.duty = c.contacts.duty[Leg::kFL];
   row.phase = ToArray(c.contacts.phase);
   row.planned_stance = ToArray(c.contacts.stance);
-  row.contact = ToArray(c.estimate.contact);
+  FillEstimate(c, s, row);
   LegArray<Vec3> targets = ZeroPerLeg();
   for (const Leg leg : kLegs) {
-    row.leg_mode[static_cast<std::size_t>(leg)] = static_cast<std::uint8_t>(c.legs.mode[leg]);
+    const auto i = static_cast<std::size_t>(leg);
+    row.leg_mode[i] = static_cast<std::uint8_t>(c.legs.mode[leg]);
+    row.true_contact[i] = r.truth.f_normal_N[leg] > sim::kTrueContactForce_N;
     targets[leg] = c.feet[leg].p_WF;
   }
   row.foot_target_m = Flatten(targets);
@@ -220,14 +259,14 @@ void Recorder::Record(const StepRecord& r, const core::LogRow& row) {
 
   msg::Imu imu;
   imu.header = MakeHeader(t, "imu_frame");
-  imu.orientation = ToMessage(r.truth.state.R_WB);
+  imu.orientation = ToMessage(r.control.estimate.state.R_WB);
   imu.angular_velocity = ToMessage(r.sensors.w_WS_S);
   imu.linear_acceleration = ToMessage(r.sensors.a_WS_S);
   Write(topics[kImu], t, imu);
 
   msg::ContactState contact;
   contact.header = MakeHeader(t, "");
-  contact.ground_contact_force = ToArray(r.sensors.foot_force_N);
+  contact.ground_contact_force = ToArray(r.sensors.foot_force_raw);
   Write(topics[kContactState], t, contact);
 
   msg::JointCmd command;
@@ -302,6 +341,34 @@ void Recorder::RecordEvent(std::int64_t step, double time_s, const std::string& 
   msg::Event event{step, kind, detail};
   Write(RecordedTopics()[kEvent], time_s, event);
   if (kind != "placed") sink_.MarkFall(ToNanoseconds(time_s));
+}
+
+void Recorder::RecordStart(double time_s, const controller::Start& start) {
+  const controller::Placement& at = start.placement;
+  msg::ControllerStart message{start.step,         start.pose == controller::Start::Pose::kStanding,
+                               at.p_WB_xy.x(),     at.p_WB_xy.y(),
+                               at.ground_z_m,      at.yaw_rad};
+  Write(RecordedTopics()[kStart], time_s, message);
+}
+
+void Recorder::RecordInput(double time_s, const SensorFrame& z, const Command& command) {
+  msg::ControllerInput m;
+  m.step = z.step;
+  m.imu_time_s = z.imu_time_s;
+  m.q_rad = Flatten(z.q);
+  m.qd_radps = Flatten(z.qd);
+  m.tau_nm = Flatten(z.tau_Nm);
+  m.specific_force_mps2 = ToArray(z.a_WS_S);
+  m.rate_radps = ToArray(z.w_WS_S);
+  m.foot_force_raw = ToArray(z.foot_force_raw);
+  m.v_x_mps = command.v_x_mps;
+  m.v_y_mps = command.v_y_mps;
+  m.w_z_radps = command.w_z_radps;
+  m.height_m = command.height_m;
+  m.roll_rad = command.roll_rad;
+  m.pitch_rad = command.pitch_rad;
+  m.pattern = static_cast<std::uint8_t>(command.pattern);
+  Write(RecordedTopics()[kInput], time_s, m);
 }
 
 void Recorder::RecordHash(std::int64_t step, double time_s, std::uint64_t hash) {

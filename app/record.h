@@ -56,6 +56,10 @@ struct StepRecord {
 /// The row that analysis sees of a step.
 [[nodiscard]] core::LogRow MakeRow(const StepRecord& record);
 
+/// Writes what the controller believes into a row, beside the truth.
+void FillEstimate(const controller::ControlOutput& control, const RobotState& truth,
+                  core::LogRow& row);
+
 /// Turns steps into the log's messages: the reference framework's topics and ours.
 class Recorder {
  public:
@@ -64,6 +68,9 @@ class Recorder {
   void Record(const StepRecord& record, const core::LogRow& row);
   void RecordEvent(std::int64_t step, double time_s, const std::string& kind,
                    const std::string& detail);
+  void RecordStart(double time_s, const controller::Start& start);
+  /// Every physics step.
+  void RecordInput(double time_s, const SensorFrame& z, const Command& command);
   void RecordHash(std::int64_t step, double time_s, std::uint64_t hash);
 
  private:

@@ -6,10 +6,10 @@
 #include <memory>
 #include <optional>
 
+#include "app/placement.h"
 #include "core/hash.h"
 #include "core/math/so3.h"
 #include "core/rng.h"
-#include "core/robot/normalise.h"
 #include "sim/sensors/sensors.h"
 
 namespace scoria::app {
@@ -47,14 +47,15 @@ class Episode {
         gravity_W_(0.0, 0.0, -scenario.gravity_mps2),
         world_(robot, ground, scenario.physics, gravity_W_),
         actuation_(robot),
-        sensors_(robot, gravity_W_, scenario.physics.step_s),
+        sensors_(robot, scenario.sensors, scenario.sensor_faults, gravity_W_,
+                 scenario.physics.step_s, scenario.seed),
         operator_(scenario.operation, ground),
         fault_rng_(scenario.seed, 0, core::Stream::kSolverFault),
         fall_monitor_(scenario.fall, robot.config.nominal_height_m, scenario.physics.step_s),
         wbc_every_(
             std::max(1, static_cast<int>(std::lround(
                             1.0 / (scenario.controller.rates.wbc_Hz * scenario.physics.step_s))))),
-        give_truth_(controller::NeedsTruth(scenario.controller.estimator)),
+        give_truth_(controller::NeedsTruth(scenario.controller)),
         pushes_(scenario.pushes.size()) {
     if (sinks.messages != nullptr) recorder_.emplace(*sinks.messages, scenario);
     Place(operator_.start_W(), operator_.start_yaw_rad(), scenario.start == StartPose::kStanding);
@@ -95,8 +96,8 @@ class Episode {
   void Step() {
     core::Lap lap(result_.times);
     const double dt = scenario_.physics.step_s;
-    const SensorFrame z =
-        sensors_.Read(world_.truth(), actuation_.motor_tau_Nm(), step_, give_truth_);
+    const SensorFrame z = sensors_.Read(world_.truth(), actuation_.motor_tau_Nm(), step_,
+                                        walking_s_, give_truth_);
     const Command command = Commanded();
     const controller::SolverFaults faults = DrawSolverFaults();
     lap.Book(core::Stage::kSensors);
@@ -104,12 +105,12 @@ class Episode {
     lap = core::Lap(result_.times);
     result_.times += control.times;
     CountInjected(faults, control);
+    AnnounceSensors(control.contact);
     Record(z, command, control);
     if (sinks_.on_control) sinks_.on_control(*controller_, control);
     lap.Book(core::Stage::kRecord);
     world_.SetTrunkWrench(PushForce(), Vec3::Zero());
-    const RobotState& state = world_.truth().state;
-    world_.Step(actuation_.Update(control.command, state.q, state.qd, dt));
+    world_.Step(actuation_.Update(control.command, z.q, z.qd, dt));
     if (control.operating) operating_s_ += dt;
     lap.Book(core::Stage::kPhysics);
     Watch(command);
@@ -149,6 +150,20 @@ class Episode {
     };
     if (control.mpc_updated) add(faults.mpc, Count::kMpcFailure, Count::kMpcLate);
     if (control.wbc_updated) add(faults.wbc, Count::kWbcFailure, Count::kWbcLate);
+  }
+
+  /// Faults that begin, and whom the contact detection believes from now on.
+  void AnnounceSensors(const ContactEstimate& contact) {
+    for (std::size_t i = 0; i < sensors_.faults().size(); ++i) {
+      if (sensors_.HasBegun(i))
+        Announce("sensor_fault", std::string(core::EnumName(sensors_.faults()[i].kind)));
+    }
+    for (const Leg leg : kLegs) {
+      const ContactSource now = contact.source[leg];
+      if (control_in_charge() && now != contact_source_[leg])
+        Announce("contact_source", fmt::format("{}: {}", LegName(leg), core::EnumName(now)));
+      contact_source_[leg] = now;
+    }
   }
 
   /// A push starts once, when walking time first reaches it, and lasts its duration in simulated
@@ -194,6 +209,7 @@ class Episode {
       if (sinks_.on_row) sinks_.on_row(row, times);
       if (recorder_) recorder_->Record(record, row);
     }
+    if (recorder_) recorder_->RecordInput(time_s(), z, command);
     if (step_ % kHashEvery == 0) {
       result_.state_hash = HashState(world_.truth().state, result_.state_hash);
       if (recorder_) recorder_->RecordHash(step_, time_s(), result_.state_hash);
@@ -271,33 +287,22 @@ class Episode {
 
   /// Puts the robot down at rest, on its feet or folded, and starts a fresh controller.
   void Place(const Vec2& p_W, double yaw_rad, bool standing) {
-    RobotState state;
-    state.R_WB = core::RotationZ(yaw_rad);
-    const core::RobotConfig& config = robot_.config;
-    if (standing) state.q = controller::StandingPose(robot_, config.nominal_height_m);
-    for (const Leg leg : kLegs) {
-      if (!standing) state.q[leg] = core::LyingPose(robot_, leg);
-    }
-    double clearance_m = 1e9;  // of the lowest foot over the ground if the trunk were at z = 0
-    for (const Leg leg : kLegs) {
-      const Vec3 p_BF_W = state.R_WB * core::CalcLegKinematics(robot_.legs[leg], state.q[leg]).p_BF;
-      const double ground = ground_.HeightAt(p_W.x() + p_BF_W.x(), p_W.y() + p_BF_W.y());
-      clearance_m = std::min(clearance_m, p_BF_W.z() - robot_.legs[leg].foot_radius_m - ground);
-    }
-    state.p_WB = {p_W.x(), p_W.y(), -clearance_m};
-    if (!standing) {
-      constexpr double kBelly_m = 0.07;  // the trunk rests on the ground before the folded feet do
-      state.p_WB.z() = std::max(state.p_WB.z(), ground_.HeightAt(p_W.x(), p_W.y()) + kBelly_m);
-    }
+    const RobotState state = standing ? PlaceStanding(robot_, ground_, p_W, yaw_rad)
+                                      : PlaceLying(robot_, ground_, p_W, yaw_rad);
     world_.Reset(state);
     sensors_.Reset();
     actuation_.Reset();
     fall_monitor_.Reset();
     if (controller_) counters_ += controller_->counters();
-    controller_ = std::make_unique<controller::Controller>(
-        scenario_.controller, robot_, scenario_.gravity_mps2, scenario_.physics.step_s,
-        standing ? controller::Controller::Start::kStanding
-                 : controller::Controller::Start::kLying);
+    const std::int64_t next_step = controller_ ? step_ + 1 : 0;
+    const controller::Start start{
+        standing ? controller::Start::Pose::kStanding : controller::Start::Pose::kLying,
+        {p_W, ground_.HeightAt(p_W.x(), p_W.y()), yaw_rad},
+        next_step};
+    controller_ = std::make_unique<controller::Controller>(scenario_.controller, robot_,
+                                                           scenario_.gravity_mps2,
+                                                           scenario_.physics.step_s, start);
+    if (recorder_) recorder_->RecordStart(time_s(), start);
     fallen_ = false;
     operating_s_ = 0.0;
     chord_start_.reset();
@@ -347,6 +352,7 @@ class Episode {
     double until_s;
     Vec3 f_W;
   };
+  LegArray<ContactSource> contact_source_;
   std::vector<std::optional<ActivePush>> pushes_;  // those that have started
   std::optional<Vec2> chord_start_, last_place_;
 };

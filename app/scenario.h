@@ -10,6 +10,8 @@
 #include "app/operator.h"
 #include "controller/controller.h"
 #include "core/robot/description.h"
+#include "sim/sensors/faults.h"
+#include "sim/sensors/sensor_params.h"
 #include "sim/world.h"
 #include "terrains/params.h"
 
@@ -73,9 +75,11 @@ struct Scenario {
   terrains::TerrainParams terrain;
   double gravity_mps2 = 9.81;
   sim::PhysicsParams physics;
+  sim::SensorParams sensors;
   StartPose start = StartPose::kStanding;
   OperatorParams operation = RouteParams{};
   std::vector<Push> pushes;
+  std::vector<sim::SensorFault> sensor_faults;
   SolverFaultParams solver_faults;
   controller::ControllerParams controller;
   FallParams fall;
@@ -90,9 +94,11 @@ struct Scenario {
     a.Field("terrain", terrain, {.doc = "usually base: ../terrains/NAME.yaml"});
     a.Field("gravity_mps2", gravity_mps2, {.min = 0.1, .max = 30.0});
     a.Field("physics", physics);
+    a.Field("sensors", sensors);
     a.Field("start", start);
     a.Field("operator", operation);
     a.Field("pushes", pushes);
+    a.Field("sensor_faults", sensor_faults);
     a.Field("solver_faults", solver_faults);
     a.Field("controller", controller);
     a.Field("fall", fall);

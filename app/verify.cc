@@ -133,7 +133,8 @@ class CompareSink final : public MessageSink {
 
 }  // namespace
 
-LogOrigin ReadLogOrigin(const std::filesystem::path& log) {
+LogOrigin ReadLogOrigin(const std::filesystem::path& log,
+                        const std::vector<std::string>& overrides) {
   const auto all = core::McapReader(log).ReadMetadata();
   const auto found = all.find(kScenarioMetadata);
   if (found == all.end() || !found->second.contains("scenario") ||
@@ -141,7 +142,8 @@ LogOrigin ReadLogOrigin(const std::filesystem::path& log) {
     throw std::runtime_error(fmt::format(
         "{}: holds no scenario; only logs that scoria wrote can be re-run or drawn", log.string()));
   }
-  const core::ConfigNode node = core::ParseConfig(found->second.at("scenario"), log.string());
+  core::ConfigNode node = core::ParseConfig(found->second.at("scenario"), log.string());
+  for (const std::string& assignment : overrides) core::ApplyOverride(node, assignment);
   return {core::ReadConfig<Scenario>(node), found->second.at("urdf")};
 }
 

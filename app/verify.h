@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/scenario.h"
 
@@ -15,8 +16,10 @@ struct LogOrigin {
   std::string urdf_text;
 };
 
-/// Errors: std::runtime_error if the file is no log of scoria.
-[[nodiscard]] LogOrigin ReadLogOrigin(const std::filesystem::path& log);
+/// @param overrides of scenario keys, as "controller.gait.type=sgs".
+/// Errors: std::runtime_error if the file is no log of scoria; core::ConfigError for an override.
+[[nodiscard]] LogOrigin ReadLogOrigin(const std::filesystem::path& log,
+                                      const std::vector<std::string>& overrides = {});
 
 struct VerifyResult {
   bool identical = false;

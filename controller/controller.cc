@@ -14,28 +14,29 @@ int EverySteps(double rate_Hz, double step_s) {
   return std::max(1, static_cast<int>(std::lround(1.0 / (rate_Hz * step_s))));
 }
 
-/// Joint control of the pose as it is, until the first tick of the hierarchy.
-StandUpParams HoldOnly(StandUpParams params) {
-  params.duration_s = 1e-6;
-  params.hold_s = 0.0;
-  return params;
-}
-
 }  // namespace
 
+bool NeedsTruth(const ControllerParams& params) noexcept {
+  return NeedsTruth(params.contact) || NeedsTruth(params.estimator);
+}
+
 Controller::Controller(const ControllerParams& params, const core::RobotDescription& robot,
-                       double gravity_mps2, double step_s, Start start, std::int64_t first_step)
+                       double gravity_mps2, double step_s, const Start& start)
     : params_(params),
-      clock_(step_s, first_step),
-      first_step_(first_step),
+      clock_(step_s, start.step),
+      first_step_(start.step),
       mpc_every_(EverySteps(params.rates.mpc_Hz, step_s)),
       wbc_every_(EverySteps(params.rates.wbc_Hz, step_s)),
       operating_(false),
       model_(robot, gravity_mps2),
       foot_radius_m_(robot.legs[Leg::kFL].foot_radius_m),
-      estimator_(MakeStateEstimator(params.estimator, step_s)),
-      stand_up_(start == Start::kLying ? params.stand_up : HoldOnly(params.stand_up),
-                StandingPose(robot, robot.config.nominal_height_m)),
+      samples_(params.samples),
+      contact_(params.contact, robot, gravity_mps2, step_s),
+      estimator_(MakeStateEstimator(params.estimator, robot, gravity_mps2, start.placement)),
+      stand_up_(params.stand_up,
+                start.pose == Start::Pose::kLying
+                    ? std::optional(StandingPose(robot, robot.config.nominal_height_m))
+                    : std::nullopt),
       gait_(MakeGaitSequencer(params.gait, robot.config.nominal_height_m)),
       reference_planner_(params.reference, robot.config.nominal_height_m),
       foothold_planner_(params.foothold, robot, gravity_mps2),
@@ -50,19 +51,18 @@ const ControlOutput& Controller::Step(const SensorFrame& z, const Command& comma
                                       const SolverFaults& faults) noexcept {
   out_.times = {};
   core::Lap lap(out_.times);
-  out_.estimate = estimator_->Update(z);
+  Feel(z);
   lap.Book(core::Stage::kEstimation);
   out_.mpc_updated = out_.wbc_updated = false;
   if (!operating_) {
     const double since_s = static_cast<double>(clock_.step() - first_step_) * clock_.step_s();
-    out_.command = stand_up_.Update(z, since_s);
-    operating_ = stand_up_.IsDone(since_s) && clock_.Due(mpc_every_);
+    out_.command = stand_up_.Update(out_.estimate.state.q, since_s);
+    operating_ =
+        stand_up_.IsDone(since_s) && out_.estimate.ready && clock_.Due(mpc_every_);
     operating_since_ = clock_.step();
   }
   if (operating_) {
     const bool plans_due = clock_.Due(mpc_every_), body_due = clock_.Due(wbc_every_);
-    if (plans_due || body_due) model_.Calc(out_.estimate.state, wb_);
-    lap.Book(core::Stage::kModel);
     if (plans_due) {
       StepPlans(command);
       lap.Book(core::Stage::kPlans);
@@ -78,9 +78,28 @@ const ControlOutput& Controller::Step(const SensorFrame& z, const Command& comma
   return out_;
 }
 
+/// Checks what the sensors say, then contacts, state and the model at that state.
+void Controller::Feel(const SensorFrame& raw) noexcept {
+  const CheckedFrame& checked = samples_.Check(raw, counters_);
+  if (clock_.step() == first_step_) {
+    RobotState at_hand;
+    at_hand.q = checked.z.q;
+    model_.Calc(at_hand, wb_);
+  }
+  const double plan_age_s =
+      static_cast<double>(clock_.step() - contacts_step_) * clock_.step_s();
+  out_.contact = contact_.Update({checked.z, wb_, out_.contacts, plan_age_s,
+                                  reference_planner_.plane(), foot_radius_m_});
+  out_.estimate = estimator_->Update({checked.z, checked.imu_dt_s, checked.imu_saturated,
+                                      out_.contact, wb_, reference_planner_.plane().Normal(),
+                                      !operating_},
+                                     counters_);
+  model_.Calc(out_.estimate.state, wb_);
+}
+
 void Controller::StepPlans(const Command& command) noexcept {
   const double dt_s = mpc_every_ * clock_.step_s();
-  reference_planner_.ObserveFeet(wb_, out_.estimate.contact, foot_radius_m_);
+  reference_planner_.ObserveFeet(wb_, out_.contact.contact, foot_radius_m_);
   reference_ =
       reference_planner_.Plan(wb_, command, params_.mpc.horizon, params_.mpc.stage_s, dt_s);
 
@@ -98,7 +117,7 @@ void Controller::StepPlans(const Command& command) noexcept {
   gait.stage_s = params_.mpc.stage_s;
   out_.contacts = gait_->Plan(gait);
   contacts_step_ = clock_.step();
-  out_.legs = leg_states_.Update(out_.contacts, out_.estimate.contact, 0.0, 0.0, counters_);
+  out_.legs = leg_states_.Update(out_.contacts, out_.contact.contact, 0.0, 0.0, counters_);
   footholds_ =
       foothold_planner_.Plan(wb_, out_.contacts, out_.legs, reference_, reference_planner_.plane());
   out_.reference = reference_.stages[0];
@@ -132,7 +151,7 @@ void Controller::TakePlan(SolverFault fault) noexcept {
 void Controller::StepBody(SolverFault fault) noexcept {
   const double step_s = clock_.step_s();
   const double contacts_age_s = static_cast<double>(clock_.step() - contacts_step_) * step_s;
-  out_.legs = leg_states_.Update(out_.contacts, out_.estimate.contact, contacts_age_s,
+  out_.legs = leg_states_.Update(out_.contacts, out_.contact.contact, contacts_age_s,
                                  wbc_every_ * step_s, counters_);
   out_.feet = swing_.Plan(wb_, out_.legs, footholds_);
 

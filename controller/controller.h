@@ -5,6 +5,8 @@
 #include <memory>
 #include <optional>
 
+#include "controller/estimation/contact_estimator.h"
+#include "controller/estimation/sample_guard.h"
 #include "controller/estimation/state_estimator.h"
 #include "controller/gait/gait_sequencer.h"
 #include "controller/mpc/mpc_runner.h"
@@ -33,6 +35,8 @@ struct RateParams {
 
 struct ControllerParams {
   RateParams rates;
+  SampleGuardParams samples;
+  ContactParams contact;
   EstimatorParams estimator;
   GaitParams gait = AgsParams{};
   ReferenceParams reference;
@@ -46,6 +50,8 @@ struct ControllerParams {
   template <class Archive>
   void Serialize(Archive& a) {
     a.Field("rates", rates);
+    a.Field("samples", samples);
+    a.Field("contact", contact);
     a.Field("estimator", estimator);
     a.Field("gait", gait);
     a.Field("reference", reference);
@@ -62,6 +68,7 @@ struct ControllerParams {
 /// Everything that one tick decided, for the record. `*_updated` tells which parts are new.
 struct ControlOutput {
   JointCommand command;
+  ContactEstimate contact;
   StateEstimate estimate;
   bool operating = false;  // false while standing up
   bool wbc_updated = false, mpc_updated = false;
@@ -84,18 +91,25 @@ struct SolverFaults {
   SolverFault mpc = SolverFault::kNone, wbc = SolverFault::kNone;
 };
 
+/// @returns true if a stage needs SensorFrame::truth.
+[[nodiscard]] bool NeedsTruth(const ControllerParams& params) noexcept;
+
+/// How a robot starts.
+struct Start {
+  enum class Pose { kLying, kStanding };
+  Pose pose = Pose::kStanding;
+  Placement placement;
+  std::int64_t step = 0;  // index of the physics step; ticks fall on multiples of the global step
+};
+
 /// The hierarchy: estimation every physics step, gait, reference, footholds and MPC at mpc_Hz,
 /// legs, swing and whole-body control at wbc_Hz. Allocates only in the constructor; Step neither
 /// throws, prints nor locks.
 class Controller {
  public:
-  enum class Start { kLying, kStanding };
-
   /// @param robot borrowed. @param step_s physics step; rates must be whole multiples of it.
-  /// @param first_step index of the physics step at which it starts: ticks fall on multiples of the
-  /// global step.
   Controller(const ControllerParams& params, const core::RobotDescription& robot,
-             double gravity_mps2, double step_s, Start start, std::int64_t first_step = 0);
+             double gravity_mps2, double step_s, const Start& start = {});
 
   /// @param faults played on the solvers if this is one of their ticks.
   [[nodiscard]] const ControlOutput& Step(const SensorFrame& z, const Command& command,
@@ -107,6 +121,7 @@ class Controller {
   [[nodiscard]] const WholeBodyController& wbc() const noexcept { return *wbc_; }
 
  private:
+  void Feel(const SensorFrame& z) noexcept;
   void StepPlans(const Command& command) noexcept;
   void TakePlan(SolverFault fault) noexcept;
   void StepBody(SolverFault fault) noexcept;
@@ -119,6 +134,8 @@ class Controller {
   bool operating_;
   core::WholeBodyModel model_;
   double foot_radius_m_;
+  SampleGuard samples_;
+  ContactEstimator contact_;
   std::unique_ptr<StateEstimator> estimator_;
   StandUp stand_up_;
   std::unique_ptr<GaitSequencer> gait_;

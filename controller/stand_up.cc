@@ -21,17 +21,18 @@ LegArray<Vec3> StandingPose(const core::RobotDescription& robot, double height_m
   return pose;
 }
 
-JointCommand StandUp::Update(const SensorFrame& z, double time_s) noexcept {
+JointCommand StandUp::Update(const LegArray<Vec3>& q, double time_s) noexcept {
   if (!started_) {
     started_ = true;
-    start_ = z.q;
+    start_ = q;
   }
   const double s = std::clamp(time_s / params_.duration_s, 0.0, 1.0);
   const double blend = s * s * (3.0 - 2.0 * s), rate = 6.0 * s * (1.0 - s) / params_.duration_s;
+  const LegArray<Vec3>& goal = goal_ ? *goal_ : start_;
   JointCommand command;
   for (const Leg leg : kLegs) {
-    command.q[leg] = start_[leg] + blend * (goal_[leg] - start_[leg]);
-    command.qd[leg] = rate * (goal_[leg] - start_[leg]);
+    command.q[leg] = start_[leg] + blend * (goal[leg] - start_[leg]);
+    command.qd[leg] = rate * (goal[leg] - start_[leg]);
     command.kp_Nm_per_rad[leg].setConstant(params_.kp_Nm_per_rad);
     command.kd_Nms_per_rad[leg].setConstant(params_.kd_Nms_per_rad);
   }

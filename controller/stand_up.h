@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+
 #include "core/config/archive.h"
 #include "core/robot/description.h"
 #include "core/robot/state.h"
@@ -25,22 +27,23 @@ struct StandUpParams {
 /// over the feet's centres.
 [[nodiscard]] LegArray<Vec3> StandingPose(const core::RobotDescription& robot, double height_m);
 
-/// From whatever pose the robot lies in to the standing pose: smooth joint interpolation under
-/// joint PD.
+/// From whatever pose the robot lies in to the standing pose, or holds the pose that it was put down
+/// in: smooth joint interpolation under joint PD.
 class StandUp {
  public:
-  StandUp(const StandUpParams& params, const LegArray<Vec3>& goal) noexcept
+  /// @param goal without one it holds.
+  StandUp(const StandUpParams& params, const std::optional<LegArray<Vec3>>& goal) noexcept
       : params_(params), goal_(goal) {}
 
-  /// @param time_s since the controller started.
-  [[nodiscard]] JointCommand Update(const SensorFrame& z, double time_s) noexcept;
+  /// @param q joint angles now. @param time_s since the controller started.
+  [[nodiscard]] JointCommand Update(const LegArray<Vec3>& q, double time_s) noexcept;
   [[nodiscard]] bool IsDone(double time_s) const noexcept {
-    return time_s >= params_.duration_s + params_.hold_s;
+    return time_s >= (goal_ ? params_.duration_s : 0.0) + params_.hold_s;
   }
 
  private:
   StandUpParams params_;
-  LegArray<Vec3> goal_;
+  std::optional<LegArray<Vec3>> goal_;
   LegArray<Vec3> start_ = ZeroPerLeg();
   bool started_ = false;
 };

@@ -10,11 +10,10 @@
 namespace scoria::core {
 
 /// What the wall clock of an episode goes to.
-enum class Stage { kSensors, kEstimation, kModel, kPlans, kMpc, kBody, kPhysics, kRecord };
-constexpr std::array<std::pair<Stage, std::string_view>, 8> EnumNames(Stage) {
+enum class Stage { kSensors, kEstimation, kPlans, kMpc, kBody, kPhysics, kRecord };
+constexpr std::array<std::pair<Stage, std::string_view>, 7> EnumNames(Stage) {
   return {{{Stage::kSensors, "sensors and operator"},
-           {Stage::kEstimation, "estimation"},
-           {Stage::kModel, "whole-body model"},
+           {Stage::kEstimation, "estimation and model"},
            {Stage::kPlans, "gait, reference, footholds"},
            {Stage::kMpc, "MPC"},
            {Stage::kBody, "swing and body control"},

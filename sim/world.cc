@@ -237,10 +237,10 @@ void World::Impl::Integrate(const Vec18& v) {
 void World::Impl::RecordContacts() {
   truth.f_F_W = foot_impulse_W = ZeroPerLeg();
   truth.f_normal_N = truth.penetration_m = LegArray<double>(0.0);
-  Vec3 f_trunk_W = Vec3::Zero();
+  Vec3 ground_on_trunk_W = Vec3::Zero();
   for (const ContactPoint& c : contacts) {
     const Vec3 f_W = c.impulse_W / params.step_s;
-    if (c.body == 0) f_trunk_W += f_W;
+    if (c.body == 0) ground_on_trunk_W += f_W;
     if (!c.is_foot) continue;
     const Leg leg = core::LegOf(c.body);
     foot_impulse_W[leg] = c.impulse_W;
@@ -249,7 +249,7 @@ void World::Impl::RecordContacts() {
     truth.penetration_m[leg] = -c.gap_m;
     feet[leg].Finish(c, truth.state.p_WB + c.p_BP_W, params.step_s);
   }
-  truth.trunk_force_N = f_trunk_W.norm();
+  truth.trunk_force_N = ground_on_trunk_W.norm();
 }
 
 void World::Impl::UpdateTruth() {

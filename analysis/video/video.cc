@@ -11,6 +11,7 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "analysis/estimation_metrics.h"
 #include "analysis/video/scene.h"
 #include "core/math/so3.h"
 
@@ -62,7 +63,8 @@ Frame MakeFrame(const core::LogRow& row, std::span<const core::LogRow> before) {
     if (shown > 0.01)
       frame.sticks.push_back({foot, foot + shown * arrow.normalized(), 0.008, kForceColour});
     if (row.operating && row.leg_mode[static_cast<std::size_t>(leg)] == 1) {
-      frame.balls.push_back({ToVec3(&row.foot_target_m[at]), 0.012, kFootholdColour});
+      frame.balls.push_back(
+          {FromEstimatorFrame(row, ToVec3(&row.foot_target_m[at])), 0.012, kFootholdColour});
     }
   }
   // The path walked, as dots on the ground.

@@ -1,44 +1,59 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "controller/estimation/state_estimator.h"
 
-#include <cmath>
+#include "controller/estimation/inekf_estimator.h"
+#include "controller/estimation/linear_kf.h"
 
 namespace scoria::controller {
 namespace {
 
 class TruthEstimator final : public StateEstimator {
  public:
-  TruthEstimator(const TruthEstimatorParams& params, double step_s) noexcept
-      : delay_steps_(std::lround(params.touchdown_delay_s / step_s)) {}
-
-  StateEstimate Update(const SensorFrame& z) noexcept override {
-    if (!z.truth) return last_;
-    last_.state = z.truth->state;
-    for (const Leg leg : kLegs) {
-      touching_steps_[leg] = z.truth->contact[leg] ? touching_steps_[leg] + 1 : 0;
-      last_.contact[leg] = touching_steps_[leg] > delay_steps_;
-    }
+  StateEstimate Update(const EstimatorInput& in, Counters&) noexcept override {
+    if (in.z.truth) last_.state = in.z.truth->state;
     return last_;
   }
 
  private:
-  std::int64_t delay_steps_;
-  LegArray<std::int64_t> touching_steps_;
   StateEstimate last_;
 };
 
 }  // namespace
 
+Vec3 StandingPlace(const core::RobotDescription& robot, const Placement& placement,
+                   const Mat3& R_WB, const LegArray<Vec3>& q) noexcept {
+  double height_m = 0.0;
+  for (const Leg leg : kLegs) {
+    const core::LegDescription& description = robot.legs[leg];
+    const Vec3 p_BF_W = R_WB * core::CalcLegKinematics(description, q[leg]).p_BF;
+    height_m += (description.foot_radius_m - p_BF_W.z()) / kNumLegs;
+  }
+  return {placement.p_WB_xy.x(), placement.p_WB_xy.y(), placement.ground_z_m + height_m};
+}
+
 bool NeedsTruth(const EstimatorParams& params) noexcept {
   return std::holds_alternative<TruthEstimatorParams>(params);
 }
 
-std::unique_ptr<StateEstimator> MakeStateEstimator(const EstimatorParams& params, double step_s) {
-  return std::visit(
-      [step_s](const TruthEstimatorParams& p) -> std::unique_ptr<StateEstimator> {
-        return std::make_unique<TruthEstimator>(p, step_s);
-      },
-      params);
+std::unique_ptr<StateEstimator> MakeStateEstimator(const EstimatorParams& params,
+                                                   const core::RobotDescription& robot,
+                                                   double gravity_mps2,
+                                                   const Placement& placement) {
+  struct Maker {
+    const core::RobotDescription& robot;
+    double gravity_mps2;
+    const Placement& placement;
+    std::unique_ptr<StateEstimator> operator()(const InekfEstimatorParams& p) const {
+      return std::make_unique<InekfEstimator>(p, robot, gravity_mps2, placement);
+    }
+    std::unique_ptr<StateEstimator> operator()(const LinearKfParams& p) const {
+      return std::make_unique<LinearKf>(p, robot, gravity_mps2, placement);
+    }
+    std::unique_ptr<StateEstimator> operator()(const TruthEstimatorParams&) const {
+      return std::make_unique<TruthEstimator>();
+    }
+  };
+  return std::visit(Maker{robot, gravity_mps2, placement}, params);
 }
 
 }  // namespace scoria::controller

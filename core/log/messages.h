@@ -322,6 +322,55 @@ struct StateHash {
   }
 };
 
+/// A controller was started: where and how the operator put the robot down.
+struct ControllerStart {
+  static constexpr const char* kTypeName = "scoria_msgs/msg/ControllerStart";
+  std::int64_t step = 0;
+  bool standing = false;
+  double x_m = 0.0, y_m = 0.0, ground_z_m = 0.0, yaw_rad = 0.0;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a("step", step);
+    a("standing", standing);
+    a("x_m", x_m);
+    a("y_m", y_m);
+    a("ground_z_m", ground_z_m);
+    a("yaw_rad", yaw_rad);
+  }
+};
+
+/// Everything that the controller was told in one physics step, exactly as it came: a replay of it
+/// gives the same estimates bit for bit.
+struct ControllerInput {
+  static constexpr const char* kTypeName = "scoria_msgs/msg/ControllerInput";
+  std::int64_t step = 0;
+  double imu_time_s = 0.0;
+  std::array<double, 12> q_rad{}, qd_radps{}, tau_nm{};
+  std::array<double, 3> specific_force_mps2{}, rate_radps{};
+  std::array<double, 4> foot_force_raw{};
+  double v_x_mps = 0.0, v_y_mps = 0.0, w_z_radps = 0.0, height_m = 0.0, roll_rad = 0.0,
+         pitch_rad = 0.0;
+  std::uint8_t pattern = 0;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a("step", step);
+    a("imu_time_s", imu_time_s);
+    a("q_rad", q_rad);
+    a("qd_radps", qd_radps);
+    a("tau_nm", tau_nm);
+    a("specific_force_mps2", specific_force_mps2);
+    a("rate_radps", rate_radps);
+    a("foot_force_raw", foot_force_raw);
+    a("v_x_mps", v_x_mps);
+    a("v_y_mps", v_y_mps);
+    a("w_z_radps", w_z_radps);
+    a("height_m", height_m);
+    a("roll_rad", roll_rad);
+    a("pitch_rad", pitch_rad);
+    a("pattern", pattern);
+  }
+};
+
 struct Event {
   static constexpr const char* kTypeName = "scoria_msgs/msg/Event";
   std::int64_t step = 0;

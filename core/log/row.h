@@ -36,9 +36,22 @@ struct LogRow {
   double com_z_m = 0.0;  // true height of the centre of mass
   double period_s = 0.0, duty = 0.0;
   std::array<double, 4> phase{};
-  std::array<bool, 4> planned_stance{}, contact{};
+  std::array<bool, 4> planned_stance{};
   std::array<std::uint8_t, 4> leg_mode{};  // LegMode
   std::array<double, 12> foot_target_m{};
+
+  // What the controller believed. The estimator's frame starts at the place where the robot was put.
+  std::array<double, 3> est_p_WB_m{}, est_v_WB_mps{}, est_rpy_rad{};
+  double nees = 0.0;            // of roll, pitch and body velocity, 5 degrees of freedom; 0: none
+  double nis = 0.0;             // of the last correction by the feet; 0: none
+  std::uint32_t nis_dof = 0;
+  std::array<double, 12> est_f_F_W_N{};
+  std::array<bool, 4> true_contact{}, contact{};  // truly; the word that counted
+  std::array<std::uint8_t, 4> contact_source{};   // ContactSource of it
+  std::array<bool, 4> contact_sensor{}, contact_observer{}, sensor_healthy{};
+  std::array<double, 4> sensor_counts{};         // over the threshold
+  std::array<double, 4> observer_probability{};  // of contact
+
   bool operating = false;     // the walking controller is in charge
   bool fallen = false;        // from the fall until the robot is set on its feet and walks again
   std::uint32_t segment = 0;  // counts placements: rows of different segments are not one path
@@ -81,9 +94,23 @@ struct LogRow {
     a("duty", duty);
     a("phase", phase);
     a("planned_stance", planned_stance);
-    a("contact", contact);
     a("leg_mode", leg_mode);
     a("foot_target_m", foot_target_m);
+    a("est_p_WB_m", est_p_WB_m);
+    a("est_v_WB_mps", est_v_WB_mps);
+    a("est_rpy_rad", est_rpy_rad);
+    a("nees", nees);
+    a("nis", nis);
+    a("nis_dof", nis_dof);
+    a("est_f_F_W_N", est_f_F_W_N);
+    a("true_contact", true_contact);
+    a("contact", contact);
+    a("contact_source", contact_source);
+    a("contact_sensor", contact_sensor);
+    a("contact_observer", contact_observer);
+    a("sensor_healthy", sensor_healthy);
+    a("sensor_counts", sensor_counts);
+    a("observer_probability", observer_probability);
     a("operating", operating);
     a("fallen", fallen);
     a("segment", segment);

@@ -25,8 +25,16 @@ enum class Count {
   kDamping,            // WBC ticks answered by joint damping
   kJointLimit,         // joints turned back at their limit
   kTiltStop,           // stops because the trunk tilted too far
+  kImuInvalid,         // ticks with an IMU sample or stamp that is not finite
+  kImuBackwards,       // ticks at which the IMU's clock went back
+  kImuRepeated,        // ticks without a new IMU sample
+  kImuGap,             // IMU samples that came after a longer time than usual
+  kImuSaturated,       // ticks with an IMU sample at the end of its range
+  kJointInvalid,       // ticks with a joint reading that is not finite
+  kSlip,               // standing feet that the estimator saw slip
+  kEstimateRefused,    // corrections of the estimate that were not usable
 };
-constexpr std::array<std::pair<Count, std::string_view>, 15> EnumNames(Count) {
+constexpr std::array<std::pair<Count, std::string_view>, 23> EnumNames(Count) {
   return {{{Count::kEarlyContact, "early_contact"},
            {Count::kLateContact, "late_contact"},
            {Count::kLostContact, "lost_contact"},
@@ -41,7 +49,15 @@ constexpr std::array<std::pair<Count, std::string_view>, 15> EnumNames(Count) {
            {Count::kInverseDynamics, "inverse_dynamics"},
            {Count::kDamping, "damping"},
            {Count::kJointLimit, "joint_limit"},
-           {Count::kTiltStop, "tilt_stop"}}};
+           {Count::kTiltStop, "tilt_stop"},
+           {Count::kImuInvalid, "imu_invalid"},
+           {Count::kImuBackwards, "imu_backwards"},
+           {Count::kImuRepeated, "imu_repeated"},
+           {Count::kImuGap, "imu_gap"},
+           {Count::kImuSaturated, "imu_saturated"},
+           {Count::kJointInvalid, "joint_invalid"},
+           {Count::kSlip, "slip"},
+           {Count::kEstimateRefused, "estimate_refused"}}};
 }
 
 class Counters {

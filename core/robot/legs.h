@@ -61,4 +61,14 @@ class LegArray {
   return flat;
 }
 
+/// Flatten, backwards.
+[[nodiscard]] inline LegArray<Vec3> Unflatten(const std::array<double, kNumJoints>& flat) noexcept {
+  LegArray<Vec3> v = ZeroPerLeg();
+  auto in = flat.begin();
+  for (Vec3& leg : v) {
+    for (double& value : leg) value = *in++;
+  }
+  return v;
+}
+
 }  // namespace scoria

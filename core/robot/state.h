@@ -22,8 +22,8 @@ struct RobotState {
   bool operator==(const RobotState&) const = default;
 };
 
-/// What the sensors of one physics step say. `truth` is set only where the scenario asks for the
-/// `truth` estimator.
+/// What the sensors have said by one physics step: the newest sample of each. `truth` is set only
+/// where the scenario asks for a stage of type `truth`.
 struct SensorFrame {
   struct Truth {
     RobotState state;
@@ -31,12 +31,13 @@ struct SensorFrame {
     bool operator==(const Truth&) const = default;
   };
   std::int64_t step = 0;
+  double imu_time_s = 0.0;               // stamp of the IMU sample, the end of its interval
   LegArray<Vec3> q = ZeroPerLeg();       // rad, encoders
-  LegArray<Vec3> qd = ZeroPerLeg();      // rad/s
-  LegArray<Vec3> tau_Nm = ZeroPerLeg();  // motor torque
+  LegArray<Vec3> qd = ZeroPerLeg();      // rad/s, as the drive computes it
+  LegArray<Vec3> tau_Nm = ZeroPerLeg();  // motor torque, from its current
   Vec3 a_WS_S = Vec3::Zero();            // m/s^2, specific force: +g upward at rest
   Vec3 w_WS_S = Vec3::Zero();            // rad/s
-  LegArray<double> foot_force_N;         // normal force per foot
+  LegArray<double> foot_force_raw;       // counts of the firmware; 0 without foot sensors
   std::optional<Truth> truth;
   bool operator==(const SensorFrame&) const = default;
 };

@@ -1,33 +1,54 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/sensors/sensors.h"
 
-namespace scoria::sim {
+#include <utility>
 
-Sensors::Sensors(const core::RobotDescription& robot, const Vec3& gravity_W, double step_s)
-    : robot_(robot), gravity_W_(gravity_W), step_s_(step_s) {}
+namespace scoria::sim {
+namespace {
+
+HonestSensors Resolve(const SensorParams& params) noexcept {
+  const auto* honest = std::get_if<HonestSensors>(&params);
+  return honest != nullptr ? *honest : WithoutErrors();
+}
+
+}  // namespace
+
+Sensors::Sensors(const core::RobotDescription& robot, const SensorParams& params,
+                 std::vector<SensorFault> faults, const Vec3& gravity_W, double step_s,
+                 std::uint64_t seed)
+    : has_foot_sensors_(robot.config.has_foot_sensors),
+      faults_(std::move(faults)),
+      imu_(robot, Resolve(params).imu, gravity_W, step_s, seed),
+      encoders_(Resolve(params).encoders, step_s, seed),
+      torque_(Resolve(params).torque, step_s, seed),
+      foot_force_(Resolve(params).foot_force, step_s, seed) {}
+
+void Sensors::Reset() noexcept {
+  imu_.Reset();
+  encoders_.Reset();
+  torque_.Reset();
+  foot_force_.Reset();
+}
 
 SensorFrame Sensors::Read(const Truth& truth, const LegArray<Vec3>& motor_tau_Nm, std::int64_t step,
-                          bool give_truth) noexcept {
-  const RobotState& s = truth.state;
+                          double fault_clock_s, bool give_truth) noexcept {
+  const FaultEffects& faults = faults_.Update(fault_clock_s);
   SensorFrame z;
   z.step = step;
-  z.q = s.q;
-  z.qd = s.qd;
-  z.tau_Nm = motor_tau_Nm;
-  const Vec3 v_WS = s.v_WB + s.w_WB.cross(s.R_WB * robot_.p_BS);
-  const Vec3 a_WS = has_velocity_ ? Vec3((v_WS - v_WS_) / step_s_) : Vec3::Zero();
-  v_WS_ = v_WS;
-  has_velocity_ = true;
-  const Mat3 R_WS = s.R_WB * robot_.R_BS;
-  z.a_WS_S = R_WS.transpose() * (a_WS - gravity_W_);
-  z.w_WS_S = R_WS.transpose() * s.w_WB;
-  SensorFrame::Truth given;
-  given.state = s;
-  for (const Leg leg : kLegs) {
-    z.foot_force_N[leg] = robot_.config.has_foot_sensors ? truth.f_normal_N[leg] : 0.0;
-    given.contact[leg] = truth.f_normal_N[leg] > kTrueContactForce_N;
+  const Encoders::Sample& joints = encoders_.Read(truth.state, faults.encoders);
+  z.q = joints.q;
+  z.qd = joints.qd;
+  z.tau_Nm = torque_.Read(motor_tau_Nm, faults.torque);
+  const Imu::Sample& inertial = imu_.Read(truth.state, step, faults.imu);
+  z.imu_time_s = inertial.time_s;
+  z.a_WS_S = inertial.a_WS_S;
+  z.w_WS_S = inertial.w_WS_S;
+  if (has_foot_sensors_) z.foot_force_raw = foot_force_.Read(truth.f_normal_N, faults.feet);
+  if (give_truth) {
+    SensorFrame::Truth& given = z.truth.emplace();
+    given.state = truth.state;
+    for (const Leg leg : kLegs) given.contact[leg] = truth.f_normal_N[leg] > kTrueContactForce_N;
   }
-  if (give_truth) z.truth = given;
   return z;
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "analysis/report.h"
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
+#include <string>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -10,6 +12,7 @@
 #include "analysis/compare.h"
 #include "analysis/html.h"
 #include "analysis/terrain_view.h"
+#include "core/files.h"
 #include "tests/support/robots.h"
 
 namespace scoria::analysis {
@@ -19,7 +22,7 @@ namespace fs = std::filesystem;
 
 /// A campaign folder as `scoria campaign` leaves it, with made-up results: arm b falls often, one
 /// episode of c crashed.
-void WriteCampaign(const fs::path& folder) {
+void WriteCampaign(const fs::path& folder, const EstimationMetrics& estimation = {}) {
   nlohmann::json index = {
       {"name", "made <up>"},
       {"arms", {"a", "b"}},
@@ -40,6 +43,7 @@ void WriteCampaign(const fs::path& folder) {
         for (int k = 0; k < 10; ++k)
           m.windows.push_back(
               {std::stod(speed) + 0.002 * k, std::stod(speed), 0.5 + 0.01 * k, 0.3, 2.0});
+        m.estimation = estimation;
         const int falls = *arm == 'b' ? 6 : 0;
         for (int k = 0; k < falls; ++k) m.falls.push_back({1.0 * k, "tilt at x 0 m"});
         const nlohmann::json counters = {{"early_contact", 1}, {"mpc_failure", 0}};
@@ -60,6 +64,31 @@ void WriteCampaign(const fs::path& folder) {
     }
   }
   std::ofstream(folder / "campaign.json") << index.dump();
+}
+
+/// Of an estimator that drifts by 2 % and a sensor that is 6 ms late and sometimes distrusted.
+EstimationMetrics DriftingEstimation() {
+  EstimationAccumulator e;
+  for (int i = 0; i < 25000; ++i) {
+    core::LogRow row;
+    row.operating = true;
+    row.time_s = 0.002 * i;
+    row.p_WB_m = {0.001 * i, 0.0, 0.3};
+    row.est_p_WB_m = {0.00102 * i, 0.0, 0.3};
+    row.nees = 10.0;
+    const auto stance = [](int at) { return at >= 0 && (at / 100) % 2 == 1; };
+    row.true_contact.fill(stance(i));
+    row.planned_stance.fill(stance(i + 5));
+    row.contact_sensor.fill(stance(i - 3));
+    row.contact = row.contact_sensor;
+    row.contact_source.fill(2);
+    row.sensor_healthy.fill(i % 1000 > 50);
+    row.sensor_counts.fill(stance(i) ? 20.0 + i % 50 : i % 30);
+    row.observer_probability.fill(stance(i) ? 0.6 + 0.01 * (i % 30) : 0.01 * (i % 70));
+    row.contact_observer.fill(row.observer_probability[0] > 0.5);
+    e.AddRow(row);
+  }
+  return e.Finish();
 }
 
 TEST(Compare, VerdictNamesWhoFallsLessWithItsInterval) {
@@ -101,6 +130,39 @@ TEST(Report, IsSelfContainedAndShowsFailures) {
     }
   }
   EXPECT_TRUE(fs::exists(page.parent_path() / "metrics.csv"));
+}
+
+TEST(Report, ShowsEstimationAndContactDetection) {
+  const test::TemporaryFolder folder;
+  WriteCampaign(folder.path(), DriftingEstimation());
+  const fs::path page = WriteReport(folder.path());
+  const std::string html = core::ReadText(page);
+  EXPECT_NE(html.find("<h2>State estimation</h2>"), std::string::npos);
+  EXPECT_NE(html.find("<td>3</td><td>2.00</td><td>0.00</td><td>0.000</td>"), std::string::npos);
+  EXPECT_NE(html.find("<h2>Contact detection</h2>"), std::string::npos);
+  EXPECT_NE(html.find("<td>6 / 6</td>"), std::string::npos);
+  EXPECT_NE(html.find("<td>momentum observer</td>"), std::string::npos);
+  EXPECT_NE(html.find("sensor distrusted"), std::string::npos);
+  for (const char* extension : {".gp", ".svg", ".png", ".pdf"})
+    EXPECT_TRUE(
+        fs::exists(page.parent_path() / "figures" / (std::string("contact_roc") + extension)));
+  const std::string csv = core::ReadText(page.parent_path() / "metrics.csv");
+  const std::string header = csv.substr(0, csv.find('\n'));
+  const std::string line =
+      csv.substr(header.size() + 1, csv.find('\n', header.size() + 1) - header.size() - 1);
+  EXPECT_NE(header.find(",drift_horizontal_pct,"), std::string::npos);
+  EXPECT_EQ(std::count(header.begin(), header.end(), ','),
+            std::count(line.begin(), line.end(), ','));
+  const auto json = nlohmann::json::parse(core::ReadText(page.parent_path() / "metrics.json"));
+  EXPECT_NEAR(json.at("cells").at(0).at("estimation").at("nees_ratio").get<double>(), 2.0, 1e-12);
+}
+
+TEST(Report, IsSilentOnEstimationWhereTheTruthWasUsed) {
+  const test::TemporaryFolder folder;
+  WriteCampaign(folder.path());
+  const std::string html = core::ReadText(WriteReport(folder.path()));
+  EXPECT_EQ(html.find("State estimation"), std::string::npos);
+  EXPECT_EQ(html.find("Contact detection"), std::string::npos);
 }
 
 TEST(Report, MissingFolderIsNamed) {

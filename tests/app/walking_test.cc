@@ -110,7 +110,7 @@ INSTANTIATE_TEST_SUITE_P(Reference, GaitTable,
                                            TableGait{"bound", 1.0, "gallop"},
                                            TableGait{"rotary_gallop", 1.5, "gallop"},
                                            TableGait{"traverse_gallop", 1.0, "gallop"}),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& test) { return std::string(test.param.name); });
 
 // Trot, walk, pace and trot again while walking: no foot is lifted or put down out of its time, the
 // new offsets are there after two cycles, and nobody falls.
@@ -185,8 +185,8 @@ INSTANTIATE_TEST_SUITE_P(Files, OtherRobot,
                          ::testing::Values("robots/b12/b12.yaml",
                                            "tests/data/robots/mule/mule.yaml",
                                            "tests/data/robots/kid/kid.yaml"),
-                         [](const auto& info) {
-                           return std::filesystem::path(info.param).stem().string();
+                         [](const auto& test) {
+                           return std::filesystem::path(test.param).stem().string();
                          });
 
 TEST(Slope, IsClimbedDescendedAndCrossed) {

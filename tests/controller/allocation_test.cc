@@ -33,14 +33,15 @@ TEST(Controller, StepNeverAllocates) {
     sim::World world(robot, ground, {}, gravity_W);
     world.Reset(test::StandingState());
     sim::Actuation actuation(robot);
-    sim::Sensors sensors(robot, gravity_W, 0.001);
+    sim::Sensors sensors(robot, sim::HonestSensors{}, {}, gravity_W, 0.001, 1);
     ControllerParams params;
     params.gait = gait;
     params.legs.late_contact = AirborneFoot::kLower;
-    Controller controller(params, robot, 9.81, 0.001, Controller::Start::kStanding);
+    Controller controller(params, robot, 9.81, 0.001);
     long allocations = 0;
     for (int step = 0; step < 2500; ++step) {
-      const SensorFrame z = sensors.Read(world.truth(), actuation.motor_tau_Nm(), step, true);
+      const SensorFrame z = sensors.Read(
+          world.truth(), actuation.motor_tau_Nm(), step, 0.001 * step, NeedsTruth(params));
       Command command;
       if (step > 500) command.v_x_mps = 0.4;
       const ControlOutput* out = nullptr;
@@ -56,16 +57,34 @@ TEST(Controller, StepNeverAllocates) {
   }
 }
 
-// The controller runs on what sensors say: without `truth` in the frame it stays at its last
-// estimate and sees nothing else.
-TEST(Controller, DoesNotSeeTheSimulatorBesideTheSensorFrame) {
-  Controller controller({}, test::Go2(), 9.81, 0.001, Controller::Start::kStanding);
-  SensorFrame z;
-  z.truth = SensorFrame::Truth{test::StandingState(), LegArray<bool>(true)};
-  (void)controller.Step(z, {});
-  z.truth.reset();
-  z.q[Leg::kFL].x() = 1.0;
-  EXPECT_EQ(controller.Step(z, {}).estimate.state, test::StandingState());
+// Two worlds that differ in truth alone give the same commands, whichever estimator runs; and a
+// stage that asks for the truth is the only one that is given it.
+TEST(Controller, SeesTheSensorsAlone) {
+  ControllerParams params;
+  EXPECT_FALSE(NeedsTruth(params));
+  for (const EstimatorParams& estimator :
+       {EstimatorParams(InekfEstimatorParams{}), EstimatorParams(LinearKfParams{})}) {
+    params.estimator = estimator;
+    EXPECT_FALSE(NeedsTruth(params));
+    Controller blind(params, test::Go2(), 9.81, 0.001), tempted(params, test::Go2(), 9.81, 0.001);
+    SensorFrame z;
+    z.q = test::StandingState().q;
+    z.a_WS_S = Vec3(0.0, 0.0, 9.81);
+    for (int step = 0; step < 600; ++step) {
+      z.step = step;
+      z.imu_time_s = 0.001 * step;
+      z.truth.reset();
+      const JointCommand expected = blind.Step(z, {}).command;
+      z.truth = SensorFrame::Truth{test::StandingState(), LegArray<bool>(true)};
+      z.truth->state.p_WB.x() = step;
+      EXPECT_EQ(tempted.Step(z, {}).command, expected);
+    }
+  }
+  params.estimator = TruthEstimatorParams{};
+  EXPECT_TRUE(NeedsTruth(params));
+  params.estimator = InekfEstimatorParams{};
+  params.contact.type = ContactChoice::kTruth;
+  EXPECT_TRUE(NeedsTruth(params));
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "controller/estimation/state_estimator.h"
 #include "controller/safety/output_guard.h"
 #include "tests/support/robots.h"
 
@@ -74,18 +73,6 @@ TEST(StandInPlan, SharesTheWeightAmongTheFeetThatStand) {
   EXPECT_EQ(f[Leg::kFR], Vec3::Zero().eval());
   EXPECT_TRUE(IsFinite(plan));
   EXPECT_TRUE(IsFinite(StandInPlan(150.0, LegArray<bool>(false), BodyReference{}, 0.05)));
-}
-
-TEST(TruthEstimator, ReportsTouchdownsLateAndLiftOffsAtOnce) {
-  TruthEstimatorParams params;
-  params.touchdown_delay_s = 0.01;
-  const auto estimator = MakeStateEstimator(params, 0.001);
-  SensorFrame z;
-  z.truth = SensorFrame::Truth{test::StandingState(), LegArray<bool>(true)};
-  for (int step = 0; step < 10; ++step) EXPECT_FALSE(estimator->Update(z).contact[Leg::kFL]);
-  EXPECT_TRUE(estimator->Update(z).contact[Leg::kFL]);
-  z.truth->contact[Leg::kFL] = false;
-  EXPECT_FALSE(estimator->Update(z).contact[Leg::kFL]);
 }
 
 }  // namespace

@@ -49,5 +49,24 @@ TEST(Rng, MomentsAreRight) {
   EXPECT_NEAR(large, 2000.0, 4 * std::sqrt(2000.0 / 20000));
 }
 
+// Oracle: the distribution function of the standard library.
+TEST(Rng, QuickNormalInvertsTheDistributionFunction) {
+  Rng quick(3, 0, Stream::kSensor), words(3, 0, Stream::kSensor);
+  constexpr int kDraws = 200000;
+  double mean = 0.0, square = 0.0, fourth = 0.0;
+  for (int i = 0; i < kDraws; ++i) {
+    const double x = quick.NextQuickNormal();
+    const double p = (words.NextU32() + 0.5) * 0x1.0p-32;
+    EXPECT_NEAR(0.5 * std::erfc(-x / std::sqrt(2.0)), p, 1e-14);
+    mean += x / kDraws;
+    square += x * x / kDraws;
+    fourth += x * x * x * x / kDraws;
+  }
+  // Four standard errors each.
+  EXPECT_NEAR(mean, 0.0, 4 / std::sqrt(kDraws));
+  EXPECT_NEAR(square, 1.0, 4 * std::sqrt(2.0 / kDraws));
+  EXPECT_NEAR(fourth, 3.0, 4 * std::sqrt(96.0 / kDraws));
+}
+
 }  // namespace
 }  // namespace scoria::core

@@ -79,7 +79,7 @@ TEST_P(Preset, RockCountsAreInTheirPoissonBands) {
 INSTANTIATE_TEST_SUITE_P(Ground, Preset,
                          ::testing::Values("self_affine", "vulcano_crater_rim", "pahoehoe",
                                            "aa_flow", "ash_field", "mars_vl1", "lunar_mare"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& test) { return std::string(test.param); });
 
 // Heights in +-5 cm on cells of 0.2 m: the reference counts 0.041 m between corners of cells.
 TEST(Generator, RandomCellsAreAsRoughAsLeggedGyms) {

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/replay.h"
+
+#include <optional>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "app/record.h"
+#include "app/verify.h"
+#include "core/log/cdr.h"
+#include "core/math/so3.h"
+
+namespace scoria::app {
+namespace {
+
+namespace msg = core::msg;
+
+Vec3 ToVec3(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+
+template <class T>
+LegArray<T> ToLegs(const std::array<T, 4>& v) {
+  return {v[0], v[1], v[2], v[3]};
+}
+
+SensorFrame ToFrame(const msg::ControllerInput& m) {
+  SensorFrame z;
+  z.step = m.step;
+  z.imu_time_s = m.imu_time_s;
+  z.q = Unflatten(m.q_rad);
+  z.qd = Unflatten(m.qd_radps);
+  z.tau_Nm = Unflatten(m.tau_nm);
+  z.a_WS_S = ToVec3(m.specific_force_mps2);
+  z.w_WS_S = ToVec3(m.rate_radps);
+  z.foot_force_raw = ToLegs(m.foot_force_raw);
+  return z;
+}
+
+Command ToCommand(const msg::ControllerInput& m) {
+  Command command;
+  command.v_x_mps = m.v_x_mps;
+  command.v_y_mps = m.v_y_mps;
+  command.w_z_radps = m.w_z_radps;
+  command.height_m = m.height_m;
+  command.roll_rad = m.roll_rad;
+  command.pitch_rad = m.pitch_rad;
+  command.pattern = static_cast<GaitPattern>(m.pattern);
+  return command;
+}
+
+RobotState TrueState(const core::LogRow& row) {
+  RobotState s;
+  s.p_WB = ToVec3(row.p_WB_m);
+  s.R_WB = core::RotationFromRpy(ToVec3(row.rpy_rad));
+  s.v_WB = ToVec3(row.v_WB_mps);
+  s.w_WB = ToVec3(row.w_WB_radps);
+  s.q = Unflatten(row.q_rad);
+  s.qd = Unflatten(row.qd_radps);
+  return s;
+}
+
+/// One pass over a log.
+class Replay {
+ public:
+  Replay(const Scenario& scenario, const core::RobotDescription& robot)
+      : scenario_(scenario),
+        robot_(robot),
+        give_truth_(controller::NeedsTruth(scenario.controller)) {}
+
+  void Take(const core::McapReader::Message& m) {
+    if (m.channel.topic == "/scoria/controller_start") {
+      Start(core::DecodeCdr<msg::ControllerStart>(m.data));
+    } else if (m.channel.topic == "/scoria/row") {
+      row_ = core::DecodeCdr<core::LogRow>(m.data);
+    } else if (m.channel.topic == "/scoria/controller_input") {
+      Step(core::DecodeCdr<msg::ControllerInput>(m.data));
+    }
+  }
+
+  ReplayResult Finish() {
+    if (result_.steps == 0) {
+      throw std::runtime_error(
+          "the log holds no controller inputs from a start on; record it with log.keep=full");
+    }
+    result_.counters += controller_->counters();
+    result_.logged = logged_.Finish();
+    result_.replayed = replayed_.Finish();
+    return result_;
+  }
+
+ private:
+  void Start(const msg::ControllerStart& m) {
+    using Pose = controller::Start::Pose;
+    if (controller_) result_.counters += controller_->counters();
+    const controller::Start start{m.standing ? Pose::kStanding : Pose::kLying,
+                                  {Vec2(m.x_m, m.y_m), m.ground_z_m, m.yaw_rad},
+                                  m.step};
+    controller_.emplace(scenario_.controller, robot_, scenario_.gravity_mps2,
+                        scenario_.physics.step_s, start);
+    next_step_ = m.step;
+  }
+
+  void Step(const msg::ControllerInput& m) {
+    if (!controller_ || m.step != next_step_) return;
+    ++next_step_;
+    ++result_.steps;
+    SensorFrame z = ToFrame(m);
+    const bool has_row = row_ && row_->step == m.step;
+    if (give_truth_ && has_row)
+      z.truth = SensorFrame::Truth{TrueState(*row_), ToLegs(row_->true_contact)};
+    const controller::ControlOutput& out = controller_->Step(z, ToCommand(m));
+    if (has_row) Compare(out);
+  }
+
+  void Compare(const controller::ControlOutput& out) {
+    core::LogRow again = *row_;
+    FillEstimate(out, TrueState(*row_), again);
+    logged_.AddRow(*row_);
+    replayed_.AddRow(again);
+    ++result_.rows;
+    const bool same = again.est_p_WB_m == row_->est_p_WB_m &&
+                      again.est_v_WB_mps == row_->est_v_WB_mps &&
+                      again.est_rpy_rad == row_->est_rpy_rad && again.nis == row_->nis &&
+                      again.contact == row_->contact && again.est_f_F_W_N == row_->est_f_F_W_N;
+    if (!same && result_.identical) {
+      result_.identical = false;
+      result_.first_difference_s = row_->time_s;
+    }
+  }
+
+  const Scenario& scenario_;
+  const core::RobotDescription& robot_;
+  bool give_truth_;
+  std::optional<controller::Controller> controller_;
+  std::int64_t next_step_ = 0;
+  std::optional<core::LogRow> row_;
+  analysis::EstimationAccumulator logged_, replayed_;
+  ReplayResult result_;
+};
+
+}  // namespace
+
+ReplayResult ReplayLog(const std::filesystem::path& log,
+                       const std::vector<std::string>& overrides) {
+  const LogOrigin origin = ReadLogOrigin(log, overrides);
+  const core::RobotDescription robot = core::MakeRobot(origin.scenario.robot, origin.urdf_text);
+  const auto replay = std::make_unique<Replay>(origin.scenario, robot);
+  const std::string problem =
+      core::McapReader(log).ForEachMessage([&](const core::McapReader::Message& m) {
+        replay->Take(m);
+        return true;
+      });
+  ReplayResult result = replay->Finish();
+  result.file_problem = problem;
+  return result;
+}
+
+}  // namespace scoria::app

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "controller/estimation/rest_attitude.h"
+#include "core/config/archive.h"
+
+namespace scoria::controller {
+
+/// Contact-aided right-invariant Kalman filter with IMU biases. Source: [Hartley2020].
+struct InekfEstimatorParams {
+  static constexpr const char* kType = "inekf";
+  double gyro_rad_per_sqrts = 2.5e-4, gyro_walk_radps_per_sqrts = 2e-5;
+  double accel_mps_per_sqrts = 5e-3, accel_walk_mps2_per_sqrts = 2e-4;
+  double foot_slip_m_per_sqrts = 0.01;
+  double foot_position_m = 0.003;
+  double start_tilt_rad = 3e-3, start_gyro_bias_radps = 1e-3, start_accel_bias_mps2 = 0.03;
+  double slip_nis = 16.0, slip_window_s = 0.02;
+  double saturated_scale = 100.0;
+  bool model_rolling = true;
+  RestParams rest;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Field("gyro_rad_per_sqrts", gyro_rad_per_sqrts,
+            {.min = 0.0, .max = 1.0, .doc = "density of the gyroscope's white noise"});
+    a.Field("gyro_walk_radps_per_sqrts", gyro_walk_radps_per_sqrts, {.min = 0.0, .max = 1.0});
+    a.Field("accel_mps_per_sqrts", accel_mps_per_sqrts,
+            {.min = 0.0, .max = 10.0, .doc = "density of the accelerometer's white noise"});
+    a.Field("accel_walk_mps2_per_sqrts", accel_walk_mps2_per_sqrts, {.min = 0.0, .max = 10.0});
+    a.Field("foot_slip_m_per_sqrts", foot_slip_m_per_sqrts,
+            {.min = 0.0, .max = 10.0, .doc = "how far a standing foot creeps"});
+    a.Field("foot_position_m", foot_position_m,
+            {.min = 1e-5, .max = 1.0, .doc = "error of a foot's place by the joint angles"});
+    a.Field("rest", rest);
+    a.Field("start_tilt_rad", start_tilt_rad,
+            {.min = 0.0, .max = 1.0, .doc = "error of the first attitude beyond that of the bias"});
+    a.Field("start_gyro_bias_radps", start_gyro_bias_radps, {.min = 0.0, .max = 1.0});
+    a.Field("start_accel_bias_mps2", start_accel_bias_mps2, {.min = 0.0, .max = 10.0});
+    a.Field("slip_nis", slip_nis,
+            {.min = 0.0,
+             .max = 1e6,
+             .doc = "a foot whose innovation, averaged over slip_window_s, exceeds this (squared, "
+                    "normalised, 3 degrees of freedom) has slipped and is set down anew"});
+    a.Field("slip_window_s", slip_window_s, {.min = 0.001, .max = 1.0});
+    a.Field("saturated_scale", saturated_scale,
+            {.min = 1.0, .max = 1e6, .doc = "of the IMU's noise while it saturates"});
+    a.Field("model_rolling", model_rolling, {.doc = "the round foot rolls on the ground"});
+  }
+};
+
+}  // namespace scoria::controller
