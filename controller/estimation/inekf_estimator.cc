@@ -2,6 +2,7 @@
 #include "controller/estimation/inekf_estimator.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <Eigen/Cholesky>
 
@@ -61,7 +62,7 @@ StateEstimate InekfEstimator::Update(const EstimatorInput& in, Counters& counter
     return out;
   }
   Predict(in, counters);
-  Roll(in);
+  MoveFeet(in);
   const InekfCorrection correction = Correct(in, counters);
   StateEstimate out = Describe(in.z);
   out.nis = correction.nis;
@@ -89,12 +90,26 @@ void InekfEstimator::Predict(const EstimatorInput& in, Counters& counters) noexc
   if (in.imu_saturated) filter_.set_noise(MakeNoise(params_, 1.0));
 }
 
-/// A sphere that rolls without slip moves its centre by w × r n.
-void InekfEstimator::Roll(const EstimatorInput& in) noexcept {
-  if (!params_.model_rolling) return;
+/// A sphere that rolls without slip moves its centre by w × r n. On soft ground it sinks by an
+/// unknown share of what it may: after it touched, and under a load that changes by Δf. The rates
+/// below add fresh_sink² in all, and (c Δf)² for a sudden change.
+void InekfEstimator::MoveFeet(const EstimatorInput& in) noexcept {
+  const double dt_s = in.imu_dt_s, tau_s = params_.load_change_s;
+  const Mat3 along_normal_W = in.n_W * in.n_W.transpose();
+  const Mat3 sink_shape_W =
+      along_normal_W + params_.sink_aside * params_.sink_aside * (Mat3::Identity() - along_normal_W);
   for (const Leg leg : kLegs) {
     const Vec3 contact_to_centre_W = robot_.legs[leg].foot_radius_m * in.n_W;
-    filter_.MoveFoot(leg, in.imu_dt_s * in.wb.w_shank_W[leg].cross(contact_to_centre_W));
+    const Vec3 roll_W = params_.model_rolling
+                            ? Vec3(dt_s * in.wb.w_shank_W[leg].cross(contact_to_centre_W))
+                            : Vec3(Vec3::Zero());
+    const Vec3 change_W = in.contact.f_F_W[leg] - mean_f_F_W_[leg];
+    mean_f_F_W_[leg] += dt_s / (dt_s + tau_s) * change_W;
+    const double sink_m = params_.foot_compliance_m_per_N * in.n_W.dot(change_W);
+    const double fresh_m = params_.fresh_sink_m * std::exp(-touching_s_[leg] / params_.fresh_s);
+    const double variance_m2 =
+        2.0 * dt_s * (sink_m * sink_m / tau_s + fresh_m * fresh_m / params_.fresh_s);
+    filter_.MoveFoot(leg, roll_W, variance_m2 * sink_shape_W);
   }
 }
 
@@ -103,7 +118,8 @@ InekfCorrection InekfEstimator::Correct(const EstimatorInput& in, Counters& coun
   const Mat3 R_SB = robot_.R_BS.transpose();
   for (const Leg leg : kLegs) {
     const Vec3 p_BF = core::CalcLegKinematics(robot_.legs[leg], in.z.q[leg]).p_BF;
-    feet[leg] = {in.contact.contact[leg], R_SB * (p_BF - robot_.p_BS),
+    touching_s_[leg] = in.contact.contact[leg] ? touching_s_[leg] + in.imu_dt_s : 0.0;
+    feet[leg] = {touching_s_[leg] > params_.impact_s, R_SB * (p_BF - robot_.p_BS),
                  Isotropic(params_.foot_position_m)};
   }
   LiftSlippedFeet(feet, in.imu_dt_s, counters);

@@ -8,7 +8,7 @@
 namespace scoria::controller {
 
 /// The invariant filter on this robot: starts from gravity at rest, sits at the IMU, lets round feet
-/// roll, and sets a foot that slips down anew.
+/// roll and sink under load, and sets a foot that slips down anew.
 class InekfEstimator final : public StateEstimator {
  public:
   /// `robot` is borrowed.
@@ -21,7 +21,7 @@ class InekfEstimator final : public StateEstimator {
  private:
   void Start(const SensorFrame& z) noexcept;
   void Predict(const EstimatorInput& in, Counters& counters) noexcept;
-  void Roll(const EstimatorInput& in) noexcept;
+  void MoveFeet(const EstimatorInput& in) noexcept;
   [[nodiscard]] InekfCorrection Correct(const EstimatorInput& in, Counters& counters) noexcept;
   void LiftSlippedFeet(const LegArray<FootMeasurement>& feet, double dt_s,
                        Counters& counters) noexcept;
@@ -35,6 +35,8 @@ class InekfEstimator final : public StateEstimator {
   Inekf filter_;
   bool started_ = false;
   LegArray<Vec3> mean_innovation_W_ = ZeroPerLeg();  // of each standing foot, over slip_window_s
+  LegArray<double> touching_s_;
+  LegArray<Vec3> mean_f_F_W_ = ZeroPerLeg();          // over load_change_s
   Vec3 w_WS_S_ = Vec3::Zero();
 };
 

@@ -13,6 +13,10 @@ struct InekfEstimatorParams {
   double accel_mps_per_sqrts = 5e-3, accel_walk_mps2_per_sqrts = 2e-4;
   double foot_slip_m_per_sqrts = 0.01;
   double foot_position_m = 0.003;
+  double impact_s = 0.02;
+  double fresh_sink_m = 0.02, fresh_s = 0.12;
+  double foot_compliance_m_per_N = 3e-4, load_change_s = 0.02;
+  double sink_aside = 0.5;
   double start_tilt_rad = 3e-3, start_gyro_bias_radps = 1e-3, start_accel_bias_mps2 = 0.03;
   double slip_nis = 16.0, slip_window_s = 0.02;
   double saturated_scale = 100.0;
@@ -30,6 +34,20 @@ struct InekfEstimatorParams {
             {.min = 0.0, .max = 10.0, .doc = "how far a standing foot creeps"});
     a.Field("foot_position_m", foot_position_m,
             {.min = 1e-5, .max = 1.0, .doc = "error of a foot's place by the joint angles"});
+    a.Field("impact_s", impact_s,
+            {.min = 0.0, .max = 1.0, .doc = "a foot is used so long after it touched"});
+    a.Field("fresh_sink_m", fresh_sink_m,
+            {.min = 0.0, .max = 1.0, .doc = "how far a foot may sink after it touched"});
+    a.Field("fresh_s", fresh_s,
+            {.min = 1e-3, .max = 10.0, .doc = "time constant with which that ends"});
+    a.Field("foot_compliance_m_per_N", foot_compliance_m_per_N,
+            {.min = 0.0,
+             .max = 0.1,
+             .doc = "how far a foot may sink into soft ground per change of its load"});
+    a.Field("load_change_s", load_change_s,
+            {.min = 1e-3, .max = 1.0, .doc = "over which a change of load counts as one"});
+    a.Field("sink_aside", sink_aside,
+            {.min = 0.0, .max = 1.0, .doc = "share of a sinking foot's motion along the ground"});
     a.Field("rest", rest);
     a.Field("start_tilt_rad", start_tilt_rad,
             {.min = 0.0, .max = 1.0, .doc = "error of the first attitude beyond that of the bias"});

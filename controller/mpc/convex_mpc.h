@@ -9,7 +9,7 @@ namespace scoria::controller {
 
 /// Weights of the squared tracking errors of one state block.
 struct MpcWeights {
-  Vec3 rpy = Vec3(100.0, 200.0, 50.0);
+  Vec3 rpy = Vec3(200.0, 200.0, 50.0);
   Vec3 position = Vec3(5.0, 5.0, 100.0);
   Vec3 angular_velocity = Vec3(0.2, 0.2, 0.8);
   Vec3 velocity = Vec3(20.0, 20.0, 0.3);
