@@ -21,8 +21,8 @@
 #include "app/inspection.h"
 #include "app/progress.h"
 #include "app/qp_check.h"
-#include "app/scenario.h"
 #include "app/replay.h"
+#include "app/scenario.h"
 #include "app/verify.h"
 #include "terrains/generator.h"
 

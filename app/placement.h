@@ -7,7 +7,8 @@
 
 namespace scoria::app {
 
-/// The robot on its four feet, as a person sets it down: the trunk along the ground, each foot on it.
+/// The robot on its four feet, as a person sets it down: the trunk along the ground, each foot on
+/// it.
 /// @param p_W where the trunk is to be.
 [[nodiscard]] RobotState PlaceStanding(const core::RobotDescription& robot,
                                        const terrains::Heightfield& ground, const Vec2& p_W,

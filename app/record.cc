@@ -123,8 +123,8 @@ msg::WBCTarget MakeWbcTarget(const StepRecord& r) {
   return m;
 }
 
-/// Normalised error squared of tilt and velocity; zero without a covariance. The velocity's error is
-/// right-invariant, so it is that of the body velocity, turned into W.
+/// Normalised error squared of tilt and velocity; zero without a covariance. The velocity's error
+/// is right-invariant, so it is that of the body velocity, turned into W.
 double CalcNees(const RobotState& truth, const controller::StateEstimate& estimate) {
   if (estimate.P_tilt_v.isZero()) return 0.0;
   const Mat3 R_error = estimate.state.R_WB * truth.R_WB.transpose();
@@ -345,9 +345,9 @@ void Recorder::RecordEvent(std::int64_t step, double time_s, const std::string& 
 
 void Recorder::RecordStart(double time_s, const controller::Start& start) {
   const controller::Placement& at = start.placement;
-  msg::ControllerStart message{start.step,         start.pose == controller::Start::Pose::kStanding,
-                               at.p_WB_xy.x(),     at.p_WB_xy.y(),
-                               at.ground_z_m,      at.yaw_rad};
+  msg::ControllerStart message{start.step,     start.pose == controller::Start::Pose::kStanding,
+                               at.p_WB_xy.x(), at.p_WB_xy.y(),
+                               at.ground_z_m,  at.yaw_rad};
   Write(RecordedTopics()[kStart], time_s, message);
 }
 

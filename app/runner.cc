@@ -96,8 +96,8 @@ class Episode {
   void Step() {
     core::Lap lap(result_.times);
     const double dt = scenario_.physics.step_s;
-    const SensorFrame z = sensors_.Read(world_.truth(), actuation_.motor_tau_Nm(), step_,
-                                        walking_s_, give_truth_);
+    const SensorFrame z =
+        sensors_.Read(world_.truth(), actuation_.motor_tau_Nm(), step_, walking_s_, give_truth_);
     const Command command = Commanded();
     const controller::SolverFaults faults = DrawSolverFaults();
     lap.Book(core::Stage::kSensors);
@@ -299,9 +299,8 @@ class Episode {
         standing ? controller::Start::Pose::kStanding : controller::Start::Pose::kLying,
         {p_W, ground_.HeightAt(p_W.x(), p_W.y()), yaw_rad},
         next_step};
-    controller_ = std::make_unique<controller::Controller>(scenario_.controller, robot_,
-                                                           scenario_.gravity_mps2,
-                                                           scenario_.physics.step_s, start);
+    controller_ = std::make_unique<controller::Controller>(
+        scenario_.controller, robot_, scenario_.gravity_mps2, scenario_.physics.step_s, start);
     if (recorder_) recorder_->RecordStart(time_s(), start);
     fallen_ = false;
     operating_s_ = 0.0;

@@ -57,8 +57,7 @@ const ControlOutput& Controller::Step(const SensorFrame& z, const Command& comma
   if (!operating_) {
     const double since_s = static_cast<double>(clock_.step() - first_step_) * clock_.step_s();
     out_.command = stand_up_.Update(out_.estimate.state.q, since_s);
-    operating_ =
-        stand_up_.IsDone(since_s) && out_.estimate.ready && clock_.Due(mpc_every_);
+    operating_ = stand_up_.IsDone(since_s) && out_.estimate.ready && clock_.Due(mpc_every_);
     operating_since_ = clock_.step();
   }
   if (operating_) {
@@ -86,14 +85,13 @@ void Controller::Feel(const SensorFrame& raw) noexcept {
     at_hand.q = checked.z.q;
     model_.Calc(at_hand, wb_);
   }
-  const double plan_age_s =
-      static_cast<double>(clock_.step() - contacts_step_) * clock_.step_s();
-  out_.contact = contact_.Update({checked.z, wb_, out_.contacts, plan_age_s,
-                                  reference_planner_.plane(), foot_radius_m_});
-  out_.estimate = estimator_->Update({checked.z, checked.imu_dt_s, checked.imu_saturated,
-                                      out_.contact, wb_, reference_planner_.plane().Normal(),
-                                      !operating_},
-                                     counters_);
+  const double plan_age_s = static_cast<double>(clock_.step() - contacts_step_) * clock_.step_s();
+  out_.contact = contact_.Update(
+      {checked.z, wb_, out_.contacts, plan_age_s, reference_planner_.plane(), foot_radius_m_});
+  out_.estimate =
+      estimator_->Update({checked.z, checked.imu_dt_s, checked.imu_saturated, out_.contact, wb_,
+                          reference_planner_.plane().Normal(), !operating_},
+                         counters_);
   model_.Calc(out_.estimate.state, wb_);
 }
 

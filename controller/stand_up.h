@@ -27,8 +27,8 @@ struct StandUpParams {
 /// over the feet's centres.
 [[nodiscard]] LegArray<Vec3> StandingPose(const core::RobotDescription& robot, double height_m);
 
-/// From whatever pose the robot lies in to the standing pose, or holds the pose that it was put down
-/// in: smooth joint interpolation under joint PD.
+/// From whatever pose the robot lies in to the standing pose, or holds the pose that it was put
+/// down in: smooth joint interpolation under joint PD.
 class StandUp {
  public:
   /// @param goal without one it holds.

@@ -96,8 +96,8 @@ void InekfEstimator::Predict(const EstimatorInput& in, Counters& counters) noexc
 void InekfEstimator::MoveFeet(const EstimatorInput& in) noexcept {
   const double dt_s = in.imu_dt_s, tau_s = params_.load_change_s;
   const Mat3 along_normal_W = in.n_W * in.n_W.transpose();
-  const Mat3 sink_shape_W =
-      along_normal_W + params_.sink_aside * params_.sink_aside * (Mat3::Identity() - along_normal_W);
+  const Mat3 sink_shape_W = along_normal_W + params_.sink_aside * params_.sink_aside *
+                                                 (Mat3::Identity() - along_normal_W);
   for (const Leg leg : kLegs) {
     const Vec3 contact_to_centre_W = robot_.legs[leg].foot_radius_m * in.n_W;
     const Vec3 roll_W = params_.model_rolling

@@ -7,8 +7,8 @@
 
 namespace scoria::controller {
 
-/// The invariant filter on this robot: starts from gravity at rest, sits at the IMU, lets round feet
-/// roll and sink under load, and sets a foot that slips down anew.
+/// The invariant filter on this robot: starts from gravity at rest, sits at the IMU, lets round
+/// feet roll and sink under load, and sets a foot that slips down anew.
 class InekfEstimator final : public StateEstimator {
  public:
   /// `robot` is borrowed.
@@ -36,7 +36,7 @@ class InekfEstimator final : public StateEstimator {
   bool started_ = false;
   LegArray<Vec3> mean_innovation_W_ = ZeroPerLeg();  // of each standing foot, over slip_window_s
   LegArray<double> touching_s_;
-  LegArray<Vec3> mean_f_F_W_ = ZeroPerLeg();          // over load_change_s
+  LegArray<Vec3> mean_f_F_W_ = ZeroPerLeg();  // over load_change_s
   Vec3 w_WS_S_ = Vec3::Zero();
 };
 

@@ -60,11 +60,9 @@ void LinearKf::Turn(const EstimatorInput& in) noexcept {
   const Vec3 up_measured_B = (robot_.R_BS * in.z.a_WS_S).normalized();
   const Vec3 up_B = R_WB_.transpose() * Vec3::UnitZ();
   const Vec3 error_B = up_measured_B.cross(up_B);
-  gyro_bias_S_ -=
-      params_.bias_gain_radps2 * in.imu_dt_s * (robot_.R_BS.transpose() * error_B);
+  gyro_bias_S_ -= params_.bias_gain_radps2 * in.imu_dt_s * (robot_.R_BS.transpose() * error_B);
   w_WB_B_ = robot_.R_BS * (in.z.w_WS_S - gyro_bias_S_);
-  R_WB_ = R_WB_ *
-          core::ExpSo3((w_WB_B_ + params_.attitude_gain_radps * error_B) * in.imu_dt_s);
+  R_WB_ = R_WB_ * core::ExpSo3((w_WB_B_ + params_.attitude_gain_radps * error_B) * in.imu_dt_s);
 }
 
 void LinearKf::Predict(const EstimatorInput& in) noexcept {

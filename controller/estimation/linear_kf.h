@@ -7,8 +7,9 @@
 namespace scoria::controller {
 
 /// Baseline. Attitude: gyroscope, pulled towards measured gravity. Position and velocity: Kalman
-/// filter over [p_WB; v_WB; p_WF of four feet] with the accelerometer as input; a standing foot does
-/// not move. All noises are isotropic, so the three axes share one covariance (6x6) and one gain.
+/// filter over [p_WB; v_WB; p_WF of four feet] with the accelerometer as input; a standing foot
+/// does not move. All noises are isotropic, so the three axes share one covariance (6x6) and one
+/// gain.
 class LinearKf final : public StateEstimator {
  public:
   /// `robot` is borrowed.

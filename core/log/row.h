@@ -40,10 +40,11 @@ struct LogRow {
   std::array<std::uint8_t, 4> leg_mode{};  // LegMode
   std::array<double, 12> foot_target_m{};
 
-  // What the controller believed. The estimator's frame starts at the place where the robot was put.
+  // What the controller believed. The estimator's frame starts at the place where the robot was
+  // put.
   std::array<double, 3> est_p_WB_m{}, est_v_WB_mps{}, est_rpy_rad{};
-  double nees = 0.0;            // of roll, pitch and body velocity, 5 degrees of freedom; 0: none
-  double nis = 0.0;             // of the last correction by the feet; 0: none
+  double nees = 0.0;  // of roll, pitch and body velocity, 5 degrees of freedom; 0: none
+  double nis = 0.0;   // of the last correction by the feet; 0: none
   std::uint32_t nis_dof = 0;
   std::array<double, 12> est_f_F_W_N{};
   std::array<bool, 4> true_contact{}, contact{};  // truly; the word that counted
