@@ -99,7 +99,7 @@ class FootSensor {
 
 struct HealthParams {
   double stuck_s = 0.1;
-  double stuck_force_N = 40.0;
+  double stuck_force_N = 25.0;
   double transition_s = 0.025;
   double sure = 0.75;
   double moving_mps = 0.8;

@@ -190,6 +190,37 @@ INSTANTIATE_TEST_SUITE_P(Files, OtherRobot,
                            return std::filesystem::path(test.param).stem().string();
                          });
 
+// Foot sensors fail in the middle of rough ground: the hierarchy turns to the momentum observer for
+// just those feet within half a second, says so, and the robot walks on.
+TEST(FootSensorFault, HierarchySwitchesWithinHalfASecondAndTheRobotWalksOn) {
+  for (const char* kind : {"foot_dropout", "foot_stuck"}) {
+    for (const int feet : {1, 2, 4}) {
+      const char* legs = feet == 1 ? "[FL]" : feet == 2 ? "[FL, HR]" : "[]";
+      const Scenario scenario = test::LoadScenario(
+          "rough", {fmt::format("sensor_faults=[{{at_s: 6, kind: {}, legs: {}}}]", kind, legs),
+                    "duration_s=10"});
+      const core::RobotDescription robot = core::LoadRobot(scenario.robot);
+      const terrains::Heightfield ground =
+          terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);
+      double fault_s = 0.0, last_switch_s = 0.0;
+      int switches = 0;
+      EpisodeSinks sinks;
+      sinks.on_event = [&](double time_s, const std::string& what, const std::string&) {
+        if (what == "sensor_fault") fault_s = time_s;
+        if (what == "contact_source") {
+          last_switch_s = time_s;
+          ++switches;
+        }
+      };
+      const EpisodeResult result = RunEpisode(scenario, robot, ground, sinks);
+      EXPECT_EQ(result.falls, 0) << kind << feet;
+      EXPECT_EQ(switches, feet) << kind << feet;
+      EXPECT_GT(fault_s, 0.0);
+      EXPECT_LT(last_switch_s - fault_s, 0.5) << kind << feet;
+    }
+  }
+}
+
 TEST(Slope, IsClimbedDescendedAndCrossed) {
   for (const double uphill_rad : {0.0, 1.5708, 3.1416}) {
     const Scenario scenario = test::LoadScenario(
