@@ -104,6 +104,7 @@ Cell PoolCell(const CampaignResults& results, const std::string& arm,
     cell.budget.stored_J += m.budget.stored_J;
     cell.budget.error_J += m.budget.error_J;
     cell.estimation += m.estimation;
+    cell.models.push_back(m.model);
     const double w = m.tracking.samples_s;
     t.samples_s += w;
     const auto add = [w](double& sum, double rmse) { sum += w * rmse * rmse; };

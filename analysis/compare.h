@@ -17,10 +17,11 @@ struct Cell {
   int stuck = 0;
   RateEstimate falls;  // per metre
   double cot_mech_abs = 0.0, cot_mech_pos = 0.0, cot_electrical = 0.0,
-         cot_battery = 0.0;      // pooled: energy over m g d
-  EnergyBudget budget;           // summed
-  TrackingErrors tracking;       // root of the mean squares, weighted by time
-  EstimationMetrics estimation;  // added up
+         cot_battery = 0.0;          // pooled: energy over m g d
+  EnergyBudget budget;               // summed
+  TrackingErrors tracking;           // root of the mean squares, weighted by time
+  EstimationMetrics estimation;      // added up
+  std::vector<ModelMetrics> models;  // by episode
   double mpc_median_s = 0.0, mpc_p99_s = 0.0, wbc_median_s = 0.0,
          wbc_p99_s = 0.0;  // mean median, worst p99
   double real_time_factor = 0.0;

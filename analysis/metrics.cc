@@ -111,6 +111,7 @@ void MetricsAccumulator::CloseBudget() {
 
 void MetricsAccumulator::AddRow(const core::LogRow& row, const core::SolveTimes& times) {
   estimation_.AddRow(row);
+  model_.AddRow(row);
   if (has_rows_ && row.segment != last_.segment) CloseBudget();
   last_ = row;
   has_rows_ = true;
@@ -246,6 +247,7 @@ EpisodeMetrics MetricsAccumulator::Finish() {
   m.mpc = mpc_times_.Summarise();
   m.wbc = wbc_times_.Summarise();
   m.estimation = estimation_.Finish();
+  m.model = model_.Finish();
   return m;
 }
 
@@ -278,7 +280,8 @@ void to_json(nlohmann::json& j, const EpisodeMetrics& m) {
        {"wbc", m.wbc},
        {"falls", m.falls},
        {"peak_foot_force_N", m.peak_foot_force_N},
-       {"estimation", m.estimation}};
+       {"estimation", m.estimation},
+       {"model", m.model}};
 }
 
 void from_json(const nlohmann::json& j, EpisodeMetrics& m) {
@@ -299,6 +302,7 @@ void from_json(const nlohmann::json& j, EpisodeMetrics& m) {
   j.at("falls").get_to(m.falls);
   j.at("peak_foot_force_N").get_to(m.peak_foot_force_N);
   m.estimation = j.value("estimation", EstimationMetrics{});  // not in older results
+  m.model = j.value("model", ModelMetrics{});
 }
 
 }  // namespace scoria::analysis

@@ -8,6 +8,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "analysis/estimation_metrics.h"
+#include "analysis/model_metrics.h"
 #include "core/log/row.h"
 
 namespace scoria::analysis {
@@ -83,6 +84,7 @@ struct EpisodeMetrics {
   double peak_foot_force_N = 0.0;
   std::vector<FallEvent> falls;
   EstimationMetrics estimation;
+  ModelMetrics model;
 };
 
 /// Accumulates rows as they come, from the runner or from a log.
@@ -126,6 +128,7 @@ class MetricsAccumulator {
   long rows_ = 0, stride_rows_ = 0;
   TimeHistogram mpc_times_, wbc_times_;
   EstimationAccumulator estimation_;
+  ModelAccumulator model_;
   core::LogRow last_;  // of any kind
   bool has_rows_ = false;
 };

@@ -12,6 +12,7 @@
 #include "analysis/estimation_report.h"
 #include "analysis/figures.h"
 #include "analysis/html.h"
+#include "analysis/model_report.h"
 #include "analysis/tables.h"
 #include "core/files.h"
 
@@ -311,6 +312,9 @@ fs::path WriteReport(const fs::path& folder) {
   AddStateEstimation(results, cells, page);
   AddContactDetection(results, cells, page);
   AddFigures(ContactFigures(results), figures, page);
+  AddModelAdaptation(results, cells, page);
+  AddFigures(ModelFigures(results), figures, page);
+  AddAdaptedTracking(results, page);
   AddEnergy(results, cells, page);
   AddTimes(results, page);
   AddTerrain(results, page);

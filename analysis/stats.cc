@@ -9,6 +9,7 @@
 #include <boost/math/distributions/beta.hpp>
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/students_t.hpp>
 
 #include "core/rng.h"
 
@@ -49,6 +50,23 @@ double Evaluate(const Eigen::Vector3d& c, double x) {
 }
 
 }  // namespace
+
+double SampleQuantile(std::vector<double> values, double share) { return Quantile(values, share); }
+
+MeanEstimate EstimateMean(std::span<const double> values, double confidence) {
+  MeanEstimate e{values.size(), kNan, {-kInfinity, kInfinity}};
+  if (values.empty()) return e;
+  const auto n = static_cast<double>(values.size());
+  e.mean = 0.0;
+  for (const double v : values) e.mean += v / n;
+  if (values.size() < 2) return e;
+  double squares = 0.0;
+  for (const double v : values) squares += (v - e.mean) * (v - e.mean);
+  const boost::math::students_t_distribution<double> t(n - 1.0);
+  const double half = quantile(t, 0.5 + 0.5 * confidence) * std::sqrt(squares / (n - 1.0) / n);
+  e.interval = {e.mean - half, e.mean + half};
+  return e;
+}
 
 RateEstimate EstimateRate(long events, double exposure, double confidence) {
   RateEstimate e;

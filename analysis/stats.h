@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -10,6 +11,18 @@ namespace scoria::analysis {
 struct Interval {
   double low = 0.0, high = 0.0;
 };
+
+/// Quantile of a sample by linear interpolation between its ordered values.
+/// @param values not empty. @param share in [0, 1].
+[[nodiscard]] double SampleQuantile(std::vector<double> values, double share);
+
+/// Mean of paired differences with Student's interval; (-inf, inf) for fewer than two pairs.
+struct MeanEstimate {
+  std::size_t count = 0;
+  double mean = 0.0;
+  Interval interval;
+};
+[[nodiscard]] MeanEstimate EstimateMean(std::span<const double> values, double confidence = 0.95);
 
 /// A Poisson rate from `events` in `exposure`, with the exact (Garwood) interval.
 struct RateEstimate {

@@ -54,6 +54,28 @@ std::vector<std::pair<const char*, std::optional<double>>> EstimationNumbers(
           {"observer_auc", when(heard, m.contact.observer.Area())}};
 }
 
+/// All of the intervals of mass of an episode or of several.
+std::vector<std::pair<const char*, std::optional<double>>> ModelNumbers(
+    const std::vector<ModelMetrics>& models) {
+  std::vector<ModelInterval> intervals;
+  for (const ModelMetrics& m : models)
+    intervals.insert(intervals.end(), m.intervals.begin(), m.intervals.end());
+  const ModelSummary s = SummariseModel(intervals);
+  const auto when = [](bool any, double value) {
+    return any && std::isfinite(value) ? std::optional(value) : std::nullopt;
+  };
+  const bool judged = s.judged > 0, settled = s.settled > 0;
+  return {{"model_bias_median_kg", when(settled, s.median_bias_kg)},
+          {"model_bias_p95_kg", when(settled, s.p95_bias_kg)},
+          {"model_rmse_median_kg", when(settled, s.median_rmse_kg)},
+          {"model_settling_median_s", when(judged, s.median_settling_s)},
+          {"model_com_x_rmse_median_m", when(settled, s.median_com_x_rmse_m)},
+          {"model_com_y_rmse_median_m", when(settled, s.median_com_y_rmse_m)},
+          {"model_settled_share",
+           when(judged, static_cast<double>(s.settled) / static_cast<double>(s.judged))},
+          {"model_used_bias_median_kg", when(s.used > 0, s.median_used_bias_kg)}};
+}
+
 }  // namespace
 
 void WriteTables(const CampaignResults& results, const std::vector<Cell>& cells,
@@ -67,6 +89,7 @@ void WriteTables(const CampaignResults& results, const std::vector<Cell>& cells,
       "roll_rmse_rad,pitch_rmse_rad,mpc_median_s,mpc_p99_s,wbc_median_s,wbc_p99_s,real_time_"
       "factor";
   for (const auto& [name, value] : EstimationNumbers({})) csv += fmt::format(",{}", name);
+  for (const auto& [name, value] : ModelNumbers({})) csv += fmt::format(",{}", name);
   csv += "\n";
   for (const EpisodeRecord& e : results.episodes) {
     const EpisodeMetrics& m = e.metrics;
@@ -79,6 +102,8 @@ void WriteTables(const CampaignResults& results, const std::vector<Cell>& cells,
                     m.tracking.height_rmse_m, m.tracking.roll_rmse_rad, m.tracking.pitch_rmse_rad,
                     m.mpc.median_s, m.mpc.p99_s, m.wbc.median_s, m.wbc.p99_s, e.real_time_factor);
     for (const auto& [name, value] : EstimationNumbers(m.estimation))
+      csv += value ? fmt::format(",{}", *value) : ",";
+    for (const auto& [name, value] : ModelNumbers({m.model}))
       csv += value ? fmt::format(",{}", *value) : ",";
     csv += "\n";
   }
@@ -102,6 +127,8 @@ void WriteTables(const CampaignResults& results, const std::vector<Cell>& cells,
                              {"stuck", c.stuck}});
     for (const auto& [name, value] : EstimationNumbers(c.estimation))
       json["cells"].back()["estimation"][name] = value ? nlohmann::json(*value) : nullptr;
+    for (const auto& [name, value] : ModelNumbers(c.models))
+      json["cells"].back()["model"][name] = value ? nlohmann::json(*value) : nullptr;
   }
   if (results.arms.size() > 1) {
     for (const Comparison& c : AllComparisons(results)) {

@@ -30,6 +30,7 @@ enum TopicId {
   kWbcSolveTime,
   kBattery,
   kHeartbeat,
+  kModel,
   kRow,
   kHash,
   kEvent,
@@ -104,6 +105,18 @@ msg::QuadState MakeQuadState(const StepRecord& r) {
   return m;
 }
 
+/// What the controller acts on.
+msg::QuadModel MakeQuadModel(const StepRecord& r) {
+  const controller::Adaptation& learned = r.control.adaptation;
+  msg::QuadModel m;
+  m.header = MakeHeader(r.time_s, "base_link");
+  m.mass = r.control.model_mass_kg;
+  m.com = ToArray(learned.p_BC);
+  const Mat3& I = learned.parameters.I_C_B_trunk;
+  std::copy(I.data(), I.data() + I.size(), m.inertia.begin());
+  return m;
+}
+
 msg::WBCTarget MakeWbcTarget(const StepRecord& r) {
   msg::WBCTarget m;
   m.header = MakeHeader(r.time_s, "world");
@@ -171,6 +184,7 @@ const std::vector<Topic>& RecordedTopics() {
       MakeTopic<msg::WBCReturn>("/wbc_solve_time", false),
       MakeTopic<msg::BatteryState>("/battery_state"),
       MakeTopic<msg::ControllerInfo>("/controller_heartbeat"),
+      MakeTopic<msg::QuadModel>("/quad_model_update"),
       MakeTopic<core::LogRow>("/scoria/row"),
       MakeTopic<msg::StateHash>("/scoria/state_hash"),
       MakeTopic<msg::Event>("/scoria/event"),
@@ -213,6 +227,7 @@ core::LogRow MakeRow(const StepRecord& r) {
   row.cmd_v_y_mps = r.command.v_y_mps;
   row.cmd_w_z_radps = r.command.w_z_radps;
   row.com_z_m = r.truth.p_WC.z();
+  row.p_BC_m = ToArray(s.R_WB.transpose() * (r.truth.p_WC - s.p_WB));
   const controller::ControlOutput& c = r.control;
   row.ref_rpy_rad = ToArray(c.reference.rpy_rad);
   row.ref_p_WC_m = ToArray(c.reference.p_WC);
@@ -222,6 +237,11 @@ core::LogRow MakeRow(const StepRecord& r) {
   row.phase = ToArray(c.contacts.phase);
   row.planned_stance = ToArray(c.contacts.stance);
   FillEstimate(c, s, row);
+  row.learned_mass_kg = c.adaptation.mass_kg;
+  row.used_mass_kg = c.model_mass_kg;
+  row.learned_sigma_kg = std::sqrt(c.adaptation.P(0, 0));
+  row.learned_p_BC_m = ToArray(c.adaptation.p_BC);
+  row.learned_tared = c.adaptation.tared;
   LegArray<Vec3> targets = ZeroPerLeg();
   for (const Leg leg : kLegs) {
     const auto i = static_cast<std::size_t>(leg);
@@ -331,6 +351,10 @@ void Recorder::Record(const StepRecord& r, const core::LogRow& row) {
     info.num_wbc_solver_fail = static_cast<std::uint32_t>(r.counters[Count::kWbcFailure]);
     info.keep_pose_active = r.control.contacts.standing;
     Write(topics[kHeartbeat], t, info);
+    if (r.control.adaptation.mass_kg > 0.0) {
+      msg::QuadModel model = MakeQuadModel(r);
+      Write(topics[kModel], t, model);
+    }
   }
   core::LogRow copy = row;
   Write(topics[kRow], t, copy);

@@ -65,6 +65,7 @@ class Replay {
   Replay(const Scenario& scenario, const core::RobotDescription& robot)
       : scenario_(scenario),
         robot_(robot),
+        changes_(ChangedControllers(scenario)),
         give_truth_(controller::NeedsTruth(scenario.controller)) {}
 
   void Take(const core::McapReader::Message& m) {
@@ -74,6 +75,10 @@ class Replay {
       row_ = core::DecodeCdr<core::LogRow>(m.data);
     } else if (m.channel.topic == "/scoria/controller_input") {
       Step(core::DecodeCdr<msg::ControllerInput>(m.data));
+    } else if (m.channel.topic == "/scoria/event") {
+      const auto event = core::DecodeCdr<msg::Event>(m.data);
+      const bool change = event.kind == "controller_change" && next_change_ < changes_.size();
+      if (change && controller_) controller_->Reconfigure(changes_[next_change_++]);
     }
   }
 
@@ -95,8 +100,8 @@ class Replay {
     const controller::Start start{m.standing ? Pose::kStanding : Pose::kLying,
                                   {Vec2(m.x_m, m.y_m), m.ground_z_m, m.yaw_rad},
                                   m.step};
-    controller_.emplace(scenario_.controller, robot_, scenario_.gravity_mps2,
-                        scenario_.physics.step_s, start);
+    controller_.emplace(next_change_ == 0 ? scenario_.controller : changes_[next_change_ - 1],
+                        robot_, scenario_.gravity_mps2, scenario_.physics.step_s, start);
     next_step_ = m.step;
   }
 
@@ -130,6 +135,8 @@ class Replay {
 
   const Scenario& scenario_;
   const core::RobotDescription& robot_;
+  std::vector<controller::ControllerParams> changes_;
+  std::size_t next_change_ = 0;
   bool give_truth_;
   std::optional<controller::Controller> controller_;
   std::int64_t next_step_ = 0;

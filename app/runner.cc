@@ -35,6 +35,13 @@ bool IsFinite(const RobotState& s) {
   return s.p_WB.allFinite() && s.R_WB.allFinite() && s.v_WB.allFinite() && s.w_WB.allFinite();
 }
 
+bool NeedsTruthEver(const Scenario& scenario) {
+  const std::vector<controller::ControllerParams> changed = ChangedControllers(scenario);
+  return controller::NeedsTruth(scenario.controller) ||
+         std::any_of(changed.begin(), changed.end(),
+                     [](const auto& params) { return controller::NeedsTruth(params); });
+}
+
 /// One episode in progress.
 class Episode {
  public:
@@ -45,7 +52,8 @@ class Episode {
         ground_(ground),
         sinks_(sinks),
         gravity_W_(0.0, 0.0, -scenario.gravity_mps2),
-        world_(robot, ground, scenario.physics, gravity_W_),
+        world_(robot, ground, scenario.physics, gravity_W_, scenario.sliding_payload),
+        payloads_(world_.truth().trunk, scenario.payloads),
         actuation_(robot),
         sensors_(robot, scenario.sensors, scenario.sensor_faults, gravity_W_,
                  scenario.physics.step_s, scenario.seed),
@@ -55,7 +63,8 @@ class Episode {
         wbc_every_(
             std::max(1, static_cast<int>(std::lround(
                             1.0 / (scenario.controller.rates.wbc_Hz * scenario.physics.step_s))))),
-        give_truth_(controller::NeedsTruth(scenario.controller)),
+        give_truth_(NeedsTruthEver(scenario)),
+        changes_(ChangedControllers(scenario)),
         pushes_(scenario.pushes.size()) {
     if (sinks.messages != nullptr) recorder_.emplace(*sinks.messages, scenario);
     Place(operator_.start_W(), operator_.start_yaw_rad(), scenario.start == StartPose::kStanding);
@@ -110,6 +119,8 @@ class Episode {
     if (sinks_.on_control) sinks_.on_control(*controller_, control);
     lap.Book(core::Stage::kRecord);
     world_.SetTrunkWrench(PushForce(), Vec3::Zero());
+    ChangePayloads();
+    ChangeController();
     world_.Step(actuation_.Update(control.command, z.q, z.qd, dt));
     if (control.operating) operating_s_ += dt;
     lap.Book(core::Stage::kPhysics);
@@ -164,6 +175,23 @@ class Episode {
         Announce("contact_source", fmt::format("{}: {}", LegName(leg), core::EnumName(now)));
       contact_source_[leg] = now;
     }
+  }
+
+  /// A change stays: after a fall the controller starts with it.
+  void ChangeController() {
+    while (next_change_ < changes_.size() &&
+           walking_s_ > scenario_.controller_changes[next_change_].at_s) {
+      controller_->Reconfigure(changes_[next_change_]);
+      Announce("controller_change",
+               fmt::format("{}", fmt::join(scenario_.controller_changes[next_change_].set, ", ")));
+      ++next_change_;
+    }
+  }
+
+  void ChangePayloads() {
+    for (const sim::TrunkChange& change : payloads_.Update(walking_s_, result_.walked_m))
+      world_.SetTrunkParameters(change.trunk, change.attach_velocity);
+    for (const std::string& text : payloads_.announcements()) Announce("payload", text);
   }
 
   /// A push starts once, when walking time first reaches it, and lasts its duration in simulated
@@ -300,12 +328,16 @@ class Episode {
         {p_W, ground_.HeightAt(p_W.x(), p_W.y()), yaw_rad},
         next_step};
     controller_ = std::make_unique<controller::Controller>(
-        scenario_.controller, robot_, scenario_.gravity_mps2, scenario_.physics.step_s, start);
+        ControllerNow(), robot_, scenario_.gravity_mps2, scenario_.physics.step_s, start);
     if (recorder_) recorder_->RecordStart(time_s(), start);
     fallen_ = false;
     operating_s_ = 0.0;
     chord_start_.reset();
     ++segment_;
+  }
+
+  [[nodiscard]] const controller::ControllerParams& ControllerNow() const {
+    return next_change_ == 0 ? scenario_.controller : changes_[next_change_ - 1];
   }
 
   [[nodiscard]] Counters counters_so_far() const {
@@ -332,6 +364,7 @@ class Episode {
   const EpisodeSinks& sinks_;
   Vec3 gravity_W_;
   sim::World world_;
+  sim::PayloadRack payloads_;
   sim::Actuation actuation_;
   sim::Sensors sensors_;
   Operator operator_;
@@ -351,6 +384,8 @@ class Episode {
     double until_s;
     Vec3 f_W;
   };
+  std::vector<controller::ControllerParams> changes_;
+  std::size_t next_change_ = 0;
   LegArray<ContactSource> contact_source_;
   std::vector<std::optional<ActivePush>> pushes_;  // those that have started
   std::optional<Vec2> chord_start_, last_place_;

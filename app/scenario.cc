@@ -3,6 +3,29 @@
 
 namespace scoria::app {
 
+std::string Scenario::Problem() const {
+  for (std::size_t i = 1; i < controller_changes.size(); ++i) {
+    if (controller_changes[i].at_s < controller_changes[i - 1].at_s)
+      return "controller_changes: at_s must not fall from one to the next";
+  }
+  try {
+    (void)ChangedControllers(*this);
+  } catch (const core::ConfigError& e) {
+    return std::string("controller_changes: ") + e.what();
+  }
+  return sim::PayloadProblem(payloads);
+}
+
+std::vector<controller::ControllerParams> ChangedControllers(const Scenario& scenario) {
+  std::vector<controller::ControllerParams> changed;
+  core::ConfigNode node = core::WriteConfig(scenario.controller);
+  for (const ControllerChange& change : scenario.controller_changes) {
+    for (const std::string& assignment : change.set) core::ApplyOverride(node, assignment);
+    changed.push_back(core::ReadConfig<controller::ControllerParams>(node));
+  }
+  return changed;
+}
+
 Scenario LoadScenario(const std::filesystem::path& file,
                       const std::vector<std::string>& overrides) {
   core::ConfigNode node = core::LoadConfig(file);

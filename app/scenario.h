@@ -10,8 +10,10 @@
 #include "app/operator.h"
 #include "controller/controller.h"
 #include "core/robot/description.h"
+#include "sim/payload.h"
 #include "sim/sensors/faults.h"
 #include "sim/sensors/sensor_params.h"
+#include "sim/sliding_payload.h"
 #include "sim/world.h"
 #include "terrains/params.h"
 
@@ -53,6 +55,17 @@ struct Push {
   }
 };
 
+/// Variants and parameters of the controller that change while it walks.
+struct ControllerChange {
+  double at_s = 0.0;
+  std::vector<std::string> set;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Required("at_s", at_s, {.min = 0.0, .doc = "since the robot stands"});
+    a.Required("set", set, {.doc = "keys below controller with their values, as gait.type=ags"});
+  }
+};
+
 /// Faults of the controller's solvers, to see what its fallbacks are worth.
 struct SolverFaultParams {
   double share = 0.0;
@@ -80,8 +93,11 @@ struct Scenario {
   OperatorParams operation = RouteParams{};
   std::vector<Push> pushes;
   std::vector<sim::SensorFault> sensor_faults;
+  std::vector<sim::PayloadEvent> payloads;
+  std::optional<sim::SlidingPayloadParams> sliding_payload;
   SolverFaultParams solver_faults;
   controller::ControllerParams controller;
+  std::vector<ControllerChange> controller_changes;
   FallParams fall;
   int max_falls = 1000;
   LogParams log;
@@ -99,13 +115,21 @@ struct Scenario {
     a.Field("operator", operation);
     a.Field("pushes", pushes);
     a.Field("sensor_faults", sensor_faults);
+    a.Field("payloads", payloads, {.doc = "what the trunk carries, and when that changes"});
+    a.Field("sliding_payload", sliding_payload, {.doc = "on a spring and damper, from the start"});
     a.Field("solver_faults", solver_faults);
     a.Field("controller", controller);
+    a.Field("controller_changes", controller_changes);
     a.Field("fall", fall);
     a.Field("max_falls", max_falls, {.min = 0, .max = 1e6, .doc = "the episode ends at this many"});
     a.Field("log", log);
   }
+  [[nodiscard]] std::string Problem() const;
 };
+
+/// The controller after each of the scenario's changes. Errors: core::ConfigError.
+[[nodiscard]] std::vector<controller::ControllerParams> ChangedControllers(
+    const Scenario& scenario);
 
 /// Reads and checks a scenario file with command-line overrides "key.sub=value".
 /// Errors: core::ConfigError.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/stopwatch.h"
 
@@ -12,6 +13,11 @@ namespace {
 
 int EverySteps(double rate_Hz, double step_s) {
   return std::max(1, static_cast<int>(std::lround(1.0 / (rate_Hz * step_s))));
+}
+
+template <class Params>
+bool Same(const Params& a, const Params& b) {
+  return core::EmitYaml(core::WriteConfig(a)) == core::EmitYaml(core::WriteConfig(b));
 }
 
 }  // namespace
@@ -23,6 +29,7 @@ bool NeedsTruth(const ControllerParams& params) noexcept {
 Controller::Controller(const ControllerParams& params, const core::RobotDescription& robot,
                        double gravity_mps2, double step_s, const Start& start)
     : params_(params),
+      robot_(robot),
       clock_(step_s, start.step),
       first_step_(start.step),
       mpc_every_(EverySteps(params.rates.mpc_Hz, step_s)),
@@ -31,8 +38,9 @@ Controller::Controller(const ControllerParams& params, const core::RobotDescript
       model_(robot, gravity_mps2),
       foot_radius_m_(robot.legs[Leg::kFL].foot_radius_m),
       samples_(params.samples),
-      contact_(params.contact, robot, gravity_mps2, step_s),
+      contact_(std::in_place, params.contact, robot, gravity_mps2, step_s),
       estimator_(MakeStateEstimator(params.estimator, robot, gravity_mps2, start.placement)),
+      adapter_(MakeModelAdapter(params.adaptation, robot, gravity_mps2, params.contact.observer)),
       stand_up_(params.stand_up,
                 start.pose == Start::Pose::kLying
                     ? std::optional(StandingPose(robot, robot.config.nominal_height_m))
@@ -42,7 +50,7 @@ Controller::Controller(const ControllerParams& params, const core::RobotDescript
       foothold_planner_(params.foothold, robot, gravity_mps2),
       leg_states_(params.legs),
       swing_(params.swing, robot),
-      mpc_(params.mpc, robot, gravity_mps2),
+      mpc_(std::make_unique<MpcRunner>(params.mpc, robot, gravity_mps2)),
       wbc_(MakeWholeBodyController(params.wbc, robot)),
       fallback_(MakeWholeBodyController(InverseDynamicsParams{}, robot)),
       guard_(params.safety, robot) {}
@@ -58,14 +66,14 @@ const ControlOutput& Controller::Step(const SensorFrame& z, const Command& comma
     const double since_s = static_cast<double>(clock_.step() - first_step_) * clock_.step_s();
     out_.command = stand_up_.Update(out_.estimate.state.q, since_s);
     operating_ = stand_up_.IsDone(since_s) && out_.estimate.ready && clock_.Due(mpc_every_);
-    operating_since_ = clock_.step();
+    mpc_since_ = clock_.step();
   }
   if (operating_) {
     const bool plans_due = clock_.Due(mpc_every_), body_due = clock_.Due(wbc_every_);
     if (plans_due) {
       StepPlans(command);
       lap.Book(core::Stage::kPlans);
-      mpc_.Submit();
+      mpc_->Submit();
       TakePlan(faults.mpc);
       lap.Book(core::Stage::kMpc);
     }
@@ -77,7 +85,44 @@ const ControlOutput& Controller::Step(const SensorFrame& z, const Command& comma
   return out_;
 }
 
-/// Checks what the sensors say, then contacts, state and the model at that state.
+void Controller::Reconfigure(const ControllerParams& params) {
+  const ControllerParams before = std::exchange(params_, params);
+  const double gravity_mps2 = model_.gravity_mps2();
+  ContactParams other_choice = before.contact;
+  other_choice.type = params.contact.type;
+  if (Same(params.contact, other_choice)) {
+    contact_->SetChoice(params.contact.type);
+  } else {
+    contact_.emplace(params.contact, robot_, gravity_mps2, clock_.step_s());
+  }
+  if (!Same(params.estimator, before.estimator)) {
+    estimator_ = MakeStateEstimator(params.estimator, robot_, gravity_mps2, {});
+    estimator_->Continue(out_.estimate);
+  }
+  if (!Same(params.adaptation, before.adaptation)) {
+    adapter_ =
+        MakeModelAdapter(params.adaptation, robot_, gravity_mps2, params.contact.observer);
+    adapter_->Continue(model_.parameters());
+  }
+  if (!Same(params.gait, before.gait)) {
+    const PhaseEngine phases = gait_->phases();
+    gait_ = MakeGaitSequencer(params.gait, robot_.config.nominal_height_m);
+    gait_->Continue(phases);
+  }
+  if (!Same(params.mpc, before.mpc)) {
+    mpc_ = std::make_unique<MpcRunner>(params.mpc, robot_, gravity_mps2);
+    mpc_since_ = (clock_.step() + mpc_every_ - 1) / mpc_every_ * mpc_every_;  // its first tick
+  }
+  if (!Same(params.wbc, before.wbc)) wbc_ = MakeWholeBodyController(params.wbc, robot_);
+  samples_.set_params(params.samples);
+  reference_planner_.set_params(params.reference);
+  if (!Same(params.foothold, before.foothold)) foothold_planner_.set_params(params.foothold);
+  leg_states_.set_params(params.legs);
+  swing_.set_params(params.swing);
+  guard_.set_params(params.safety);
+}
+
+/// Checks what the sensors say, then contacts, state, mass and the model at that state.
 void Controller::Feel(const SensorFrame& raw) noexcept {
   const CheckedFrame& checked = samples_.Check(raw, counters_);
   if (clock_.step() == first_step_) {
@@ -86,13 +131,17 @@ void Controller::Feel(const SensorFrame& raw) noexcept {
     model_.Calc(at_hand, wb_);
   }
   const double plan_age_s = static_cast<double>(clock_.step() - contacts_step_) * clock_.step_s();
-  out_.contact = contact_.Update(
+  out_.contact = contact_->Update(
       {checked.z, wb_, out_.contacts, plan_age_s, reference_planner_.plane(), foot_radius_m_});
   out_.estimate =
       estimator_->Update({checked.z, checked.imu_dt_s, checked.imu_saturated, out_.contact, wb_,
                           reference_planner_.plane().Normal(), !operating_},
                          counters_);
+  out_.adaptation =
+      adapter_->Update({out_.estimate.state, checked.z, out_.contact, clock_.step_s(), operating_});
+  if (out_.adaptation.changed) model_.SetParameters(out_.adaptation.parameters);
   model_.Calc(out_.estimate.state, wb_);
+  out_.model_mass_kg = wb_.mass_kg;
 }
 
 void Controller::StepPlans(const Command& command) noexcept {
@@ -121,17 +170,17 @@ void Controller::StepPlans(const Command& command) noexcept {
   out_.reference = reference_.stages[0];
   out_.ground_z_m = reference_.ground_z_m;
 
-  mpc_.input() = {wb_, out_.contacts, out_.legs, reference_, footholds_};
+  mpc_->input() = {wb_, out_.contacts, out_.legs, reference_, footholds_};
 }
 
 /// The plan that is due becomes the one in force, unless it failed or is late.
 void Controller::TakePlan(SolverFault fault) noexcept {
-  const MpcRunner::Result& result = mpc_.Collect();
+  const MpcRunner::Result& result = mpc_->Collect();
   out_.mpc_solve_s = result.solve_s;
   out_.mpc_status = fault == SolverFault::kFail ? SolveStatus::kNumerical : result.mpc.status;
   out_.mpc_iterations = result.mpc.iterations;
   out_.mpc_updated = true;
-  DatedPlan due{result.mpc.plan, operating_since_ + result.tick * mpc_every_};
+  DatedPlan due{result.mpc.plan, mpc_since_ + result.tick * mpc_every_};
   if (fault == SolverFault::kNan)
     due.plan.f_F_W[0][Leg::kFL].setConstant(std::numeric_limits<double>::quiet_NaN());
   if (late_.plan.valid) active_ = late_;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "controller/adaptation/model_adapter.h"
 #include "controller/estimation/contact_estimator.h"
 #include "controller/estimation/sample_guard.h"
 #include "controller/estimation/state_estimator.h"
@@ -38,6 +39,7 @@ struct ControllerParams {
   SampleGuardParams samples;
   ContactParams contact;
   EstimatorParams estimator;
+  AdapterParams adaptation;
   GaitParams gait = AgsParams{};
   ReferenceParams reference;
   FootholdParams foothold;
@@ -53,6 +55,7 @@ struct ControllerParams {
     a.Field("samples", samples);
     a.Field("contact", contact);
     a.Field("estimator", estimator);
+    a.Field("adaptation", adaptation);
     a.Field("gait", gait);
     a.Field("reference", reference);
     a.Field("foothold", foothold);
@@ -70,7 +73,9 @@ struct ControlOutput {
   JointCommand command;
   ContactEstimate contact;
   StateEstimate estimate;
-  bool operating = false;  // false while standing up
+  Adaptation adaptation;
+  double model_mass_kg = 0.0;  // that gait, MPC and body control act on
+  bool operating = false;      // false while standing up
   bool wbc_updated = false, mpc_updated = false;
   ContactPlan contacts;
   LegPhases legs;
@@ -115,9 +120,14 @@ class Controller {
   [[nodiscard]] const ControlOutput& Step(const SensorFrame& z, const Command& command,
                                           const SolverFaults& faults = {}) noexcept;
 
+  /// Changes variants and parameters while walking, between two steps: phases, targets, estimates
+  /// and the plan in force are kept; stages that do not change are not touched. Rates stay as they
+  /// are. Allocates.
+  void Reconfigure(const ControllerParams& params);
+
   /// Everything that did not go to plan, since the start.
   [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
-  [[nodiscard]] const ConvexMpc& mpc() const noexcept { return mpc_.mpc(); }
+  [[nodiscard]] const ConvexMpc& mpc() const noexcept { return mpc_->mpc(); }
   [[nodiscard]] const WholeBodyController& wbc() const noexcept { return *wbc_; }
 
  private:
@@ -128,6 +138,7 @@ class Controller {
   [[nodiscard]] WbcResult SolveBody(const WbcInput& in, SolverFault fault) noexcept;
 
   ControllerParams params_;
+  const core::RobotDescription& robot_;
   core::StepClock clock_;
   std::int64_t first_step_;
   int mpc_every_, wbc_every_;
@@ -135,15 +146,16 @@ class Controller {
   core::WholeBodyModel model_;
   double foot_radius_m_;
   SampleGuard samples_;
-  ContactEstimator contact_;
+  std::optional<ContactEstimator> contact_;
   std::unique_ptr<StateEstimator> estimator_;
+  std::unique_ptr<ModelAdapter> adapter_;
   StandUp stand_up_;
   std::unique_ptr<GaitSequencer> gait_;
   ReferencePlanner reference_planner_;
   FootholdPlanner foothold_planner_;
   LegStateMachine leg_states_;
   SwingTrajectory swing_;
-  MpcRunner mpc_;
+  std::unique_ptr<MpcRunner> mpc_;
   std::unique_ptr<WholeBodyController> wbc_, fallback_;
   OutputGuard guard_;
 
@@ -155,7 +167,7 @@ class Controller {
     std::int64_t step = 0;  // when its state was taken
   };
   DatedPlan active_, late_;  // in force; came too late for the last tick
-  std::int64_t operating_since_ = 0, contacts_step_ = 0, command_step_ = 0;
+  std::int64_t mpc_since_ = 0, contacts_step_ = 0, command_step_ = 0;
   Counters counters_;
   ControlOutput out_;
 };

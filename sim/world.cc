@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>
+#include <Eigen/Cholesky>
 #include <btBulletCollisionCommon.h>
 
 #include "core/demand.h"
@@ -160,32 +161,39 @@ class Collisions {
 
 struct World::Impl {
   Impl(const RobotDescription& robot_in, const terrains::Heightfield& ground_in,
-       const PhysicsParams& params_in, const Vec3& gravity_in_W);
+       const PhysicsParams& params_in, const Vec3& gravity_in_W,
+       const std::optional<SlidingPayloadParams>& sliding_in);
 
   void FindContacts();
   void Integrate(const Vec18& v);
   void RecordContacts();
   void UpdateTruth();
+  void Impact(const Mat18& H_before);
 
   const RobotDescription& robot;
   const terrains::Heightfield& ground;
   PhysicsParams params;
   Vec3 gravity_W;
   core::WholeBodyModel model;
-  core::WholeBody whole_body;  // at truth.state
+  core::WholeBody whole_body;  // at truth.state, without a sliding payload
+  std::optional<SlidingPayload> sliding;
   StepSolver solver;
   Collisions collisions;
-  double load_kg;  // that a foot typically carries: what the ground's damping ratio refers to
+  // What a foot of the bare robot typically carries: the ground's damping ratio refers to it, and
+  // the ground does not change with the payload.
+  double load_kg;
   LegArray<FootGround> feet;
   LegArray<Vec3> foot_impulse_W = ZeroPerLeg();  // of the last step: where the solver starts
   std::vector<ContactPoint> contacts;
   std::int64_t unconverged_steps = 0;
   Truth truth;
+  Vec3 impact_v_WB = Vec3::Zero();  // change of v_WB since the last step, by payloads
   Vec3 f_trunk_W = Vec3::Zero(), t_trunk_W = Vec3::Zero();
 };
 
 World::Impl::Impl(const RobotDescription& robot_in, const terrains::Heightfield& ground_in,
-                  const PhysicsParams& params_in, const Vec3& gravity_in_W)
+                  const PhysicsParams& params_in, const Vec3& gravity_in_W,
+                  const std::optional<SlidingPayloadParams>& sliding_in)
     : robot(robot_in),
       ground(ground_in),
       params(params_in),
@@ -193,7 +201,9 @@ World::Impl::Impl(const RobotDescription& robot_in, const terrains::Heightfield&
       model(robot_in, gravity_in_W),
       solver(robot_in, {params_in.max_solver_iterations, params_in.solver_residual}),
       collisions(robot_in, ground_in),
-      load_kg(robot_in.total_mass_kg() / kNumLegs) {}
+      load_kg(robot_in.total_mass_kg() / kNumLegs) {
+  if (sliding_in) sliding.emplace(*sliding_in, gravity_in_W);
+}
 
 void World::Impl::FindContacts() {
   const RobotState& state = truth.state;
@@ -222,7 +232,8 @@ void World::Impl::FindContacts() {
 void World::Impl::Integrate(const Vec18& v) {
   RobotState& state = truth.state;
   const double dt = params.step_s;
-  truth.a_WB = (v.head<3>() - state.v_WB) / dt;
+  truth.a_WB = (v.head<3>() - state.v_WB + impact_v_WB) / dt;
+  impact_v_WB.setZero();
   state.v_WB = v.head<3>();
   state.w_WB = v.segment<3>(3);
   state.p_WB += dt * state.v_WB;
@@ -261,11 +272,43 @@ void World::Impl::UpdateTruth() {
   // Semi-implicit Euler is a leapfrog: its velocity belongs to half a step ago.
   const Vec3 p_WC_then = whole_body.p_WC - 0.5 * params.step_s * whole_body.v_WC;
   truth.energy.potential_J = -whole_body.mass_kg * gravity_W.dot(p_WC_then);
+  truth.trunk = model.parameters();
+  if (!sliding) return;
+  const double m = sliding->mass_kg();
+  truth.mass_kg += m;
+  truth.p_WC += m / truth.mass_kg * (sliding->CalcPosition(truth.state) - truth.p_WC);
+  truth.slide_m = sliding->x_m();
+  truth.slide_mps = sliding->rate_mps();
+  truth.energy.kinetic_J += sliding->CalcKineticEnergy(truth.state);
+  truth.energy.potential_J += sliding->CalcPotentialEnergy(truth.state, params.step_s);
+}
+
+/// Plastic impact with what was added to the trunk at rest, at a mass matrix that is the new one
+/// already. The trunk drags a sliding payload only across its line.
+void World::Impl::Impact(const Mat18& H_before) {
+  RobotState& state = truth.state;
+  Vec18 v;
+  v.head<6>() << state.v_WB, state.w_WB;
+  for (const Leg leg : kLegs) {
+    v.segment<3>(6 + kJointsPerLeg * static_cast<int>(leg)) = state.qd[leg];
+  }
+  Mat18 H = AssembleMassMatrix(whole_body);
+  const Vec18 lacking = (H_before - H) * v;
+  if (sliding) H.topLeftCorner<6, 6>() += sliding->CalcImpactInertia(state);
+  const Vec18 change = H.llt().solve(lacking);
+  if (sliding) sliding->Kick(state, change.head<6>());
+  impact_v_WB += change.head<3>();
+  state.v_WB += change.head<3>();
+  state.w_WB += change.segment<3>(3);
+  for (const Leg leg : kLegs) {
+    state.qd[leg] += change.segment<3>(6 + kJointsPerLeg * static_cast<int>(leg));
+  }
 }
 
 World::World(const RobotDescription& robot, const terrains::Heightfield& ground,
-             const PhysicsParams& params, const Vec3& gravity_W)
-    : impl_(std::make_unique<Impl>(robot, ground, params, gravity_W)) {
+             const PhysicsParams& params, const Vec3& gravity_W,
+             const std::optional<SlidingPayloadParams>& sliding)
+    : impl_(std::make_unique<Impl>(robot, ground, params, gravity_W, sliding)) {
   Reset(RobotState{});
 }
 
@@ -276,6 +319,8 @@ void World::Reset(const RobotState& state) {
   w.collisions.Forget();
   w.foot_impulse_W = ZeroPerLeg();
   w.solver.Reset();
+  w.impact_v_WB.setZero();
+  if (w.sliding) w.sliding->Reset();
   for (const Leg leg : kLegs) {
     w.feet[leg] = FootGround(w.params.ground, w.robot.legs[leg].foot_radius_m, w.load_kg);
   }
@@ -291,8 +336,16 @@ void World::Step(const LegArray<Vec3>& tau_Nm) {
   const Vec3 p_BC_W = w.truth.state.R_WB * w.robot.trunk.p_LC;
   Vec6 wrench_B_W;
   wrench_B_W << w.f_trunk_W, w.t_trunk_W + p_BC_W.cross(w.f_trunk_W);
-  const Vec18 v = w.solver.Solve(w.whole_body, tau_Nm, wrench_B_W, w.params.step_s, w.contacts);
+  const double dt = w.params.step_s;
+  if (w.sliding) w.sliding->AddTo(w.whole_body, dt);
+  const Vec18 v = w.solver.Solve(w.whole_body, tau_Nm, wrench_B_W, dt, w.contacts);
   w.RecordContacts();
+  if (w.sliding) {
+    Vec6 change = v.head<6>();
+    change.head<3>() -= w.truth.state.v_WB;
+    change.tail<3>() -= w.truth.state.w_WB;
+    w.truth.energy.work.joint_J += w.sliding->Step(w.truth.state, change, dt);
+  }
   w.Integrate(v);
   w.UpdateTruth();
   w.truth.energy.work += w.solver.work();
@@ -308,6 +361,20 @@ std::int64_t World::unconverged_steps() const noexcept { return impl_->unconverg
 void World::SetTrunkWrench(const Vec3& f_W, const Vec3& t_W) {
   impl_->f_trunk_W = f_W;
   impl_->t_trunk_W = t_W;
+}
+
+void World::SetTrunkParameters(const core::ModelParameters& trunk, AttachVelocity attach_velocity) {
+  Impl& w = *impl_;
+  EnergyLedger& e = w.truth.energy;
+  const double before_J = e.kinetic_J + e.potential_J;
+  const Mat18 H_before = AssembleMassMatrix(w.whole_body);
+  w.model.SetParameters(trunk);
+  if (attach_velocity == AttachVelocity::kRest) {
+    w.model.Calc(w.truth.state, w.whole_body);
+    w.Impact(H_before);
+  }
+  w.UpdateTruth();
+  e.work.external_J += e.kinetic_J + e.potential_J - before_J;
 }
 
 }  // namespace scoria::sim

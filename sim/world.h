@@ -2,11 +2,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "core/robot/description.h"
 #include "core/robot/state.h"
 #include "core/robot/whole_body.h"
 #include "sim/ground_law.h"
+#include "sim/payload.h"
+#include "sim/sliding_payload.h"
 #include "sim/step_solver.h"
 #include "terrains/heightfield.h"
 
@@ -29,7 +32,8 @@ struct PhysicsParams {
 };
 
 /// Where the robot's mechanical energy came from and went, J since Reset. Whatever the sum of works
-/// does not explain of the change of energy is the integrator's error.
+/// does not explain of the change of energy is the integrator's error. What payloads bring and take
+/// is external work; the damper of a sliding one is a joint.
 struct EnergyLedger {
   Work work;
   double kinetic_J = 0.0, potential_J = 0.0;  // now; rotors included, potential from z = 0
@@ -44,14 +48,16 @@ struct EnergyLedger {
 /// The true state of the robot and of its contacts after a step. Forces act on the robot.
 struct Truth {
   RobotState state;
-  Vec3 a_WB = Vec3::Zero();  // m/s^2, mean over the last step
-  Vec3 p_WC = Vec3::Zero();  // centre of mass
-  double mass_kg = 0.0;
-  LegArray<Vec3> p_WF = ZeroPerLeg();   // foot sphere centres
-  LegArray<Vec3> f_F_W = ZeroPerLeg();  // N, ground on foot
-  LegArray<double> f_normal_N;          // its share along the ground's normal
-  LegArray<double> penetration_m;       // > 0 inside the ground
-  double trunk_force_N = 0.0;           // magnitude of all ground force on the trunk
+  Vec3 a_WB = Vec3::Zero();               // m/s^2, mean over the last step
+  Vec3 p_WC = Vec3::Zero();               // centre of mass, payloads included
+  double mass_kg = 0.0;                   // likewise
+  core::ModelParameters trunk;            // with all that is fixed to it
+  double slide_m = 0.0, slide_mps = 0.0;  // of a sliding payload
+  LegArray<Vec3> p_WF = ZeroPerLeg();     // foot sphere centres
+  LegArray<Vec3> f_F_W = ZeroPerLeg();    // N, ground on foot
+  LegArray<double> f_normal_N;            // its share along the ground's normal
+  LegArray<double> penetration_m;         // > 0 inside the ground
+  double trunk_force_N = 0.0;             // magnitude of all ground force on the trunk
   EnergyLedger energy;
   bool operator==(const Truth&) const = default;
 };
@@ -63,12 +69,13 @@ class World {
  public:
   /// `robot` and `ground` are borrowed and must outlive the world.
   World(const core::RobotDescription& robot, const terrains::Heightfield& ground,
-        const PhysicsParams& params, const Vec3& gravity_W);
+        const PhysicsParams& params, const Vec3& gravity_W,
+        const std::optional<SlidingPayloadParams>& sliding = std::nullopt);
   ~World();
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  /// Places the robot at rest or in motion; contact memory is forgotten.
+  /// Places the robot at rest or in motion; contact memory is forgotten. Payloads stay on it.
   void Reset(const RobotState& state);
 
   /// Advances by one step under torques at the joints (motor side). Rotor inertia, damping and
@@ -80,8 +87,16 @@ class World {
   /// Steps so far that stopped at the limit of iterations, as a robot that lies on many points may.
   [[nodiscard]] std::int64_t unconverged_steps() const noexcept;
 
-  /// Sets a constant external force and moment on the trunk, in W about B's COM, until changed.
+  /// Sets a constant external force and moment on the trunk, in W about the bare trunk's COM, until
+  /// changed.
   void SetTrunkWrench(const Vec3& f_W, const Vec3& t_W);
+
+  /// Changes mass, centre of mass and inertia of the trunk between two steps. Where what was added
+  /// moved with the trunk (kMatched), all velocities stay. Where it was at rest (kRest), it joins
+  /// in a perfectly plastic impact, H' v' = H v over all coordinates, so the robot's linear and
+  /// angular momentum stay; the acceleration of the next step contains that impact.
+  /// @pre  the mass is positive, and the inertia with it.
+  void SetTrunkParameters(const core::ModelParameters& trunk, AttachVelocity attach_velocity);
 
  private:
   struct Impl;

@@ -81,6 +81,21 @@ void InekfEstimator::Start(const SensorFrame& z) noexcept {
   filter_.Set(x, CalcStartCovariance(params_, x.R_WS, gravity_mps2_));
 }
 
+void InekfEstimator::Continue(const StateEstimate& from) noexcept {
+  constexpr double kVelocity_mps = 0.05;
+  using I = InekfIndex;
+  const RobotState& s = from.state;
+  InekfState x;
+  x.R_WS = s.R_WB * robot_.R_BS;
+  const Vec3 p_BS_W = s.R_WB * robot_.p_BS;
+  x.p_WS = s.p_WB + p_BS_W;
+  x.v_WS = s.v_WB + s.w_WB.cross(p_BS_W);
+  InekfCovariance P = CalcStartCovariance(params_, x.R_WS, gravity_mps2_);
+  P.block<3, 3>(I::kVelocity, I::kVelocity) = Isotropic(kVelocity_mps);
+  filter_.Set(x, P);
+  started_ = true;
+}
+
 void InekfEstimator::Predict(const EstimatorInput& in, Counters& counters) noexcept {
   w_WS_S_ = in.z.w_WS_S - filter_.state().gyro_bias_S;
   if (in.imu_dt_s == 0.0) return;

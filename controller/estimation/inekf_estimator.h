@@ -18,6 +18,8 @@ class InekfEstimator final : public StateEstimator {
   [[nodiscard]] StateEstimate Update(const EstimatorInput& in,
                                      Counters& counters) noexcept override;
 
+  void Continue(const StateEstimate& from) noexcept override;
+
  private:
   void Start(const SensorFrame& z) noexcept;
   void Predict(const EstimatorInput& in, Counters& counters) noexcept;

@@ -22,7 +22,12 @@ LinearKf::LinearKf(const LinearKfParams& params, const core::RobotDescription& r
 StateEstimate LinearKf::Update(const EstimatorInput& in, Counters&) noexcept {
   if (in.at_rest || !started_) {
     rest_.Add(in.z.a_WS_S, in.z.w_WS_S, in.imu_dt_s);
-    Start(in.z);
+    RobotState at_rest;
+    at_rest.R_WB = rest_.R_WB(robot_.R_BS, placement_.yaw_rad);
+    at_rest.p_WB = StandingPlace(robot_, placement_, at_rest.R_WB, in.z.q);
+    at_rest.q = in.z.q;
+    gyro_bias_S_ = rest_.GyroBias_S();
+    Start(at_rest);
   } else {
     Turn(in);
     Predict(in);
@@ -39,21 +44,22 @@ StateEstimate LinearKf::Update(const EstimatorInput& in, Counters&) noexcept {
   return out;
 }
 
-void LinearKf::Start(const SensorFrame& z) noexcept {
+void LinearKf::Start(const RobotState& state) noexcept {
   started_ = true;
-  R_WB_ = rest_.R_WB(robot_.R_BS, placement_.yaw_rad);
-  gyro_bias_S_ = rest_.GyroBias_S();
-  x_.row(kPosition) = StandingPlace(robot_, placement_, R_WB_, z.q).transpose();
-  x_.row(kVelocity).setZero();
+  R_WB_ = state.R_WB;
+  x_.row(kPosition) = state.p_WB.transpose();
+  x_.row(kVelocity) = state.v_WB.transpose();
   constexpr double kStartVelocity_mps = 0.01;
   P_.setZero();
   P_(kVelocity, kVelocity) = kStartVelocity_mps * kStartVelocity_mps;
   for (const Leg leg : kLegs) {
-    const Vec3 p_BF = core::CalcLegKinematics(robot_.legs[leg], z.q[leg]).p_BF;
+    const Vec3 p_BF = core::CalcLegKinematics(robot_.legs[leg], state.q[leg]).p_BF;
     x_.row(FootRow(leg)) = x_.row(kPosition) + (R_WB_ * p_BF).transpose();
     P_(FootRow(leg), FootRow(leg)) = params_.foot_position_m * params_.foot_position_m;
   }
 }
+
+void LinearKf::Continue(const StateEstimate& from) noexcept { Start(from.state); }
 
 /// Source: [Mahony2008], passive complementary filter with bias, gravity only.
 void LinearKf::Turn(const EstimatorInput& in) noexcept {

@@ -19,11 +19,13 @@ class LinearKf final : public StateEstimator {
   [[nodiscard]] StateEstimate Update(const EstimatorInput& in,
                                      Counters& counters) noexcept override;
 
+  void Continue(const StateEstimate& from) noexcept override;
+
  private:
   using Row = Eigen::Matrix<double, 1, 6>;
   using States = Eigen::Matrix<double, 6, 3>;  // one column per axis of W
 
-  void Start(const SensorFrame& z) noexcept;
+  void Start(const RobotState& state) noexcept;
   void Turn(const EstimatorInput& in) noexcept;
   void Predict(const EstimatorInput& in) noexcept;
   void Correct(const EstimatorInput& in) noexcept;

@@ -35,6 +35,8 @@ class SampleGuard {
 
   [[nodiscard]] const CheckedFrame& Check(const SensorFrame& z, Counters& counters) noexcept;
 
+  void set_params(const SampleGuardParams& params) noexcept { params_ = params; }
+
  private:
   [[nodiscard]] double TimeSinceLast(const SensorFrame& z, Counters& counters) noexcept;
 

@@ -13,6 +13,7 @@ class TruthEstimator final : public StateEstimator {
     if (in.z.truth) last_.state = in.z.truth->state;
     return last_;
   }
+  void Continue(const StateEstimate& from) noexcept override { last_ = from; }
 
  private:
   StateEstimate last_;

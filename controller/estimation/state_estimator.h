@@ -53,6 +53,8 @@ class StateEstimator {
   virtual ~StateEstimator() = default;
   [[nodiscard]] virtual StateEstimate Update(const EstimatorInput& in,
                                              Counters& counters) noexcept = 0;
+  /// Goes on from another estimator's state, and trusts it a little less.
+  virtual void Continue(const StateEstimate& from) noexcept = 0;
 };
 
 /// The simulator's own state, for controller studies without estimation error.

@@ -62,6 +62,8 @@ class PhasedGait : public GaitSequencer {
                    ends_swings_early() ? in.early_contact : LegArray<bool>(false));
     return engine_.Predict(in.horizon, in.stage_s);
   }
+  const PhaseEngine& phases() const noexcept final { return engine_; }
+  void Continue(const PhaseEngine& phases) noexcept final { engine_ = phases; }
 
  private:
   [[nodiscard]] virtual GaitTiming Timing(const GaitInput& in) noexcept = 0;

@@ -32,6 +32,9 @@ class GaitSequencer {
  public:
   virtual ~GaitSequencer() = default;
   [[nodiscard]] virtual ContactPlan Plan(const GaitInput& in) noexcept = 0;
+  /// The phases now, and taking over those of another sequencer.
+  [[nodiscard]] virtual const PhaseEngine& phases() const noexcept = 0;
+  virtual void Continue(const PhaseEngine& phases) noexcept = 0;
 };
 
 /// Stride law of the adaptive gait: l = 2.3 Fr^0.3 h with Fr = v²/(g h), T = l/v, constant swing

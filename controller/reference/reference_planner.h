@@ -50,6 +50,8 @@ class ReferencePlanner {
 
   [[nodiscard]] const GroundPlane& plane() const noexcept { return plane_; }
 
+  void set_params(const ReferenceParams& params) noexcept { params_ = params; }
+
  private:
   void Ramp(const Command& command, double dt_s) noexcept;
   void FitPlane(const Vec3& p_WB) noexcept;

@@ -68,6 +68,8 @@ class LegStateMachine {
   [[nodiscard]] const LegPhases& Update(const ContactPlan& plan, const LegArray<bool>& contact,
                                         double age_s, double dt_s, Counters& counters) noexcept;
 
+  void set_params(const LegStateParams& params) noexcept { params_ = params; }
+
  private:
   struct Felt {
     bool touching, lost;

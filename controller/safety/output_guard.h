@@ -48,6 +48,8 @@ class OutputGuard {
                                    Counters& counters) noexcept;
   [[nodiscard]] JointCommand Damping() const noexcept;
 
+  void set_params(const SafetyParams& params) noexcept { params_ = params; }
+
  private:
   [[nodiscard]] int TurnBackAtLimits(const RobotState& state, JointCommand& command) const noexcept;
 

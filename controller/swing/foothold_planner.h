@@ -44,6 +44,11 @@ class FootholdPlanner {
   /// Level distance of a foot from its place under the body as it is.
   [[nodiscard]] double DistanceFromNeutral(const core::WholeBody& wb, Leg leg) const noexcept;
 
+  void set_params(const FootholdParams& params) noexcept {
+    params_ = params;
+    velocity_ = core::MovingMean<Vec3, kMaxSamples>(params.velocity_filter_samples);
+  }
+
  private:
   /// What one tick's footholds have in common.
   struct Tick {

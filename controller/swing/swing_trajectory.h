@@ -39,6 +39,8 @@ class SwingTrajectory {
   [[nodiscard]] FootTargets Plan(const core::WholeBody& wb, const LegPhases& legs,
                                  const FootholdPlan& footholds) noexcept;
 
+  void set_params(const SwingParams& params) noexcept { params_ = params; }
+
  private:
   /// What a swing was started with.
   struct Arc {

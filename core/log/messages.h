@@ -300,6 +300,21 @@ struct ControllerInfo {
   }
 };
 
+struct QuadModel {
+  static constexpr const char* kTypeName = "interfaces/msg/QuadModel";
+  Header header;
+  double mass = 0.0;
+  std::array<double, 3> com{};
+  std::array<double, 9> inertia{};  // column major
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a("header", header);
+    a("mass", mass);
+    a("com", com);
+    a("inertia", inertia);
+  }
+};
+
 struct BatteryState {
   static constexpr const char* kTypeName = "interfaces/msg/BatteryState";
   float voltage = 0.0f, current = 0.0f;

@@ -23,6 +23,7 @@ struct LogRow {
   double trunk_force_N = 0.0;
   double ground_z_m = 0.0;  // under the trunk
   double total_mass_kg = 0.0;
+  std::array<double, 3> p_BC_m{};  // centre of mass of the whole robot, payload included, in B
   double mech_abs_J = 0.0, mech_pos_J = 0.0, electrical_J = 0.0,
          battery_J = 0.0;  // since the start
 
@@ -53,6 +54,11 @@ struct LogRow {
   std::array<double, 4> sensor_counts{};         // over the threshold
   std::array<double, 4> observer_probability{};  // of contact
 
+  // What the controller believes of its mass: learned, and acted on. Zero without adaptation.
+  double learned_mass_kg = 0.0, used_mass_kg = 0.0, learned_sigma_kg = 0.0;
+  std::array<double, 3> learned_p_BC_m{};
+  bool learned_tared = false;
+
   bool operating = false;     // the walking controller is in charge
   bool fallen = false;        // from the fall until the robot is set on its feet and walks again
   std::uint32_t segment = 0;  // counts placements: rows of different segments are not one path
@@ -73,6 +79,7 @@ struct LogRow {
     a("trunk_force_N", trunk_force_N);
     a("ground_z_m", ground_z_m);
     a("total_mass_kg", total_mass_kg);
+    a("p_BC_m", p_BC_m);
     a("mech_abs_J", mech_abs_J);
     a("mech_pos_J", mech_pos_J);
     a("electrical_J", electrical_J);
@@ -112,6 +119,11 @@ struct LogRow {
     a("sensor_healthy", sensor_healthy);
     a("sensor_counts", sensor_counts);
     a("observer_probability", observer_probability);
+    a("learned_mass_kg", learned_mass_kg);
+    a("used_mass_kg", used_mass_kg);
+    a("learned_sigma_kg", learned_sigma_kg);
+    a("learned_p_BC_m", learned_p_BC_m);
+    a("learned_tared", learned_tared);
     a("operating", operating);
     a("fallen", fallen);
     a("segment", segment);

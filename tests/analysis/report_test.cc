@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <string>
 
@@ -11,6 +12,7 @@
 
 #include "analysis/compare.h"
 #include "analysis/html.h"
+#include "analysis/model_report.h"
 #include "analysis/terrain_view.h"
 #include "core/files.h"
 #include "tests/support/robots.h"
@@ -20,9 +22,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+using Spoil = std::function<void(const std::string& arm, int seed, EpisodeMetrics& m)>;
+
 /// A campaign folder as `scoria campaign` leaves it, with made-up results: arm b falls often, one
 /// episode of c crashed.
-void WriteCampaign(const fs::path& folder, const EstimationMetrics& estimation = {}) {
+void WriteCampaign(const fs::path& folder, const EstimationMetrics& estimation = {},
+                   const Spoil& spoil = nullptr) {
   nlohmann::json index = {
       {"name", "made <up>"},
       {"arms", {"a", "b"}},
@@ -56,8 +61,9 @@ void WriteCampaign(const fs::path& folder, const EstimationMetrics& estimation =
                                  {"real_time_factor", 15.0},
                                  {"us_per_step", {{"MPC", 5.0}, {"physics", 15.0}}},
                                  {"counters", counters},
-                                 {"terrain", terrain},
-                                 {"metrics", m}};
+                                 {"terrain", terrain}};
+        if (spoil) spoil(arm, seed, m);
+        result["metrics"] = m;
         if (id == "a-0.6-s3") result = {{"end", "crashed"}, {"message", "signal 11"}};
         std::ofstream(folder / "episodes" / id / "result.json") << result.dump();
       }
@@ -163,6 +169,105 @@ TEST(Report, IsSilentOnEstimationWhereTheTruthWasUsed) {
   const std::string html = core::ReadText(WriteReport(folder.path()));
   EXPECT_EQ(html.find("State estimation"), std::string::npos);
   EXPECT_EQ(html.find("Contact detection"), std::string::npos);
+}
+
+/// Arm b learned a payload of 3 kg and holds its height and attitude better than a.
+void Adapt(const std::string& arm, int seed, EpisodeMetrics& m) {
+  m.tracking = {.samples_s = 10.0,
+                .height_rmse_m = 0.010 + 0.001 * seed,
+                .roll_rmse_rad = 0.02,
+                .pitch_rmse_rad = 0.03};
+  m.model.intervals = {{.duration_s = 10.0, .mass_kg = 15.0, .used_rows = 5000},
+                       {.start_s = 10.0,
+                        .duration_s = 10.0,
+                        .mass_kg = 18.0,
+                        .step_kg = 3.0,
+                        .used_rows = 5000,
+                        .used_bias_kg = -3.0}};
+  if (arm == "a") return;
+  m.tracking.height_rmse_m -= 0.004 + 0.001 * (seed - 2);
+  m.model.present = true;
+  for (ModelInterval& i : m.model.intervals) {
+    i.rows = 5000;
+    i.settled = true;
+    i.settling_s = 1.5;
+    i.bias_kg = -0.05 * seed;
+    i.rmse_kg = 0.2;
+    i.com_x_rmse_m = 0.003;
+    i.com_y_rmse_m = 0.002;
+    i.used_bias_kg = -0.1;
+  }
+}
+
+TEST(Report, ShowsModelAdaptation) {
+  const test::TemporaryFolder folder;
+  WriteCampaign(folder.path(), {}, Adapt);
+  const fs::path page = WriteReport(folder.path());
+  const std::string html = core::ReadText(page);
+  EXPECT_NE(html.find("<h2>Online model adaptation</h2>"), std::string::npos);
+  EXPECT_NE(html.find("<td>b</td><td>2</td><td>18.00</td><td>3</td><td>0.100</td><td>0.145</td>"
+                      "<td>0.200</td><td>1.50</td><td>3.0</td><td>2.0</td><td>100 (3 of 3)</td>"),
+            std::string::npos);
+  EXPECT_NE(html.find("<td>b</td><td>all</td><td>15.00 to 18.00</td><td>3</td>"),
+            std::string::npos);
+  EXPECT_NE(html.find("<h2>Tracking with and without adaptation</h2>"), std::string::npos);
+  EXPECT_NE(html.find("<td>b against a</td>"), std::string::npos);
+  const std::string csv = core::ReadText(page.parent_path() / "metrics.csv");
+  EXPECT_NE(csv.substr(0, csv.find('\n')).find(",model_bias_median_kg,"), std::string::npos);
+  const auto json = nlohmann::json::parse(core::ReadText(page.parent_path() / "metrics.json"));
+  const auto& a = json.at("cells").at(0).at("model");
+  EXPECT_TRUE(a.at("model_bias_median_kg").is_null());
+  EXPECT_NEAR(a.at("model_used_bias_median_kg").get<double>(), 1.5, 1e-12);
+  const auto& b = json.at("cells").at(1).at("model");
+  EXPECT_NEAR(b.at("model_bias_median_kg").get<double>(), 0.1, 1e-12);
+}
+
+TEST(Report, PairsTrackingBySeed) {
+  const test::TemporaryFolder folder;
+  WriteCampaign(folder.path(), {}, Adapt);
+  const auto all = CompareTracking(LoadResults(folder.path()));
+  ASSERT_EQ(all.size(), 3u);  // pooled, then two points
+  EXPECT_EQ(all[0].arm, "b");
+  EXPECT_EQ(all[0].baseline, "a");
+  EXPECT_EQ(all[0].height_difference_m.count, 3u);
+  EXPECT_NEAR(all[0].height_difference_m.mean, -0.004, 1e-12);
+  // Differences of -3, -4 and -5 mm.
+  EXPECT_NEAR(all[0].height_difference_m.interval.high, -0.004 + 0.001 * 2.484, 1e-5);
+  EXPECT_EQ(all[2].height_difference_m.count, 2u);  // one episode of a crashed
+}
+
+TEST(Report, IsSilentOnAdaptationWhereNoneRan) {
+  const test::TemporaryFolder folder;
+  WriteCampaign(folder.path(), {}, [](const std::string& arm, int seed, EpisodeMetrics& m) {
+    Adapt(arm, seed, m);
+    m.model.present = false;
+  });
+  const std::string html = core::ReadText(WriteReport(folder.path()));
+  EXPECT_EQ(html.find("Online model adaptation"), std::string::npos);
+  EXPECT_EQ(html.find("with and without adaptation"), std::string::npos);
+}
+
+/// The course of two payloads, the second taken away gradually.
+TEST(Report, DrawsTheCourseOfTheLearnedMass) {
+  LogContent log;
+  for (int i = 0; i < 3000; ++i) {
+    core::LogRow row;
+    row.time_s = 0.01 * i;
+    row.operating = true;
+    row.learned_tared = i > 200;
+    const double left = std::clamp((2500.0 - i) / 500.0, 0.0, 1.0);
+    row.total_mass_kg = 15.0 + (i > 1000 ? 2.5 * left : 0.0);
+    row.learned_mass_kg = row.used_mass_kg = row.total_mass_kg;
+    row.learned_sigma_kg = 0.1;
+    log.rows.push_back(row);
+  }
+  const test::TemporaryFolder folder;
+  const CaptionedFigure f = ModelFigure(log, "made_up");
+  f.figure.Render(folder.path());
+  for (const char* extension : {".gp", ".svg", ".png", ".pdf"})
+    EXPECT_TRUE(fs::exists(folder.path() / (std::string("model_made_up") + extension)));
+  const std::string script = core::ReadText(folder.path() / "model_made_up.gp");
+  EXPECT_NE(script.find("rect from 10.01,graph 0 to 20.01,graph 1"), std::string::npos);
 }
 
 TEST(Report, MissingFolderIsNamed) {

@@ -85,5 +85,14 @@ TEST(CostCurve, RecoversItsOwnCurve) {
   EXPECT_NEAR(fit.r2, 1.0, 1e-12);
 }
 
+/// Student's t: differences 1, 2, 3 have the mean 2 ± 4.3027 / √3.
+TEST(Stats, MeanHasStudentsInterval) {
+  const MeanEstimate e = EstimateMean(std::vector<double>{1.0, 2.0, 3.0});
+  EXPECT_NEAR(e.mean, 2.0, 1e-12);
+  EXPECT_NEAR(e.interval.low, 2.0 - 4.302653 / std::sqrt(3.0), 1e-5);
+  EXPECT_NEAR(e.interval.high, 2.0 + 4.302653 / std::sqrt(3.0), 1e-5);
+  EXPECT_TRUE(std::isinf(EstimateMean(std::vector<double>{1.0}).interval.high));
+}
+
 }  // namespace
 }  // namespace scoria::analysis

@@ -95,10 +95,9 @@ TEST_P(GaitTable, Walks) {
   // Gallops give up speed and direction for balance, and are asked for ten seconds.
   const bool gallops = std::string_view(scenario) == "gallop";
   const Outcome o = Walk(test::LoadScenario(
-      scenario,
-      {fmt::format("controller.gait={{type: sgs, gait: {}}}", name), "start=standing",
-       fmt::format("operator.steps=[{{at_s: 0, v_x_mps: {}}}]", v_x_mps),
-       fmt::format("duration_s={}", gallops ? 12 : 31)}));
+      scenario, {fmt::format("controller.gait={{type: sgs, gait: {}}}", name), "start=standing",
+                 fmt::format("operator.steps=[{{at_s: 0, v_x_mps: {}}}]", v_x_mps),
+                 fmt::format("duration_s={}", gallops ? 12 : 31)}));
   EXPECT_EQ(o.result.falls, 0);
   EXPECT_NEAR(o.metrics.tracking.velocity_x_mps, v_x_mps, (gallops ? 0.4 : 0.03) * v_x_mps + 1e-3);
 }
@@ -220,6 +219,91 @@ TEST(FootSensorFault, HierarchySwitchesWithinHalfASecondAndTheRobotWalksOn) {
     }
   }
 }
+
+// Every pair of variants of a stage, in both directions, is switched while the robot trots: it
+// walks on, and no motor sees a larger step of torque than in its ordinary walk.
+struct Variants {
+  const char* stage;
+  std::vector<std::string> settings;
+  friend void PrintTo(const Variants& v, std::ostream* out) { *out << v.stage; }
+};
+class SwitchWhileWalking : public ::testing::TestWithParam<Variants> {};
+
+/// A walk through all ordered pairs of n things: each is left for every other once.
+std::vector<std::size_t> TourOfAllPairs(std::size_t n) {
+  std::vector<std::vector<bool>> used(n, std::vector<bool>(n, false));
+  std::vector<std::size_t> path = {0}, tour;
+  while (!path.empty()) {  // Hierholzer
+    const std::size_t from = path.back();
+    std::size_t to = 0;
+    while (to < n && (to == from || used[from][to])) ++to;
+    if (to < n) {
+      used[from][to] = true;
+      path.push_back(to);
+    } else {
+      tour.push_back(from);
+      path.pop_back();
+    }
+  }
+  std::reverse(tour.begin(), tour.end());
+  return tour;
+}
+
+TEST_P(SwitchWhileWalking, KeepsWalkingWithoutATorqueStep) {
+  const Variants& variants = GetParam();
+  constexpr double kFirst_s = 6.0, kEvery_s = 1.37;  // meets every phase of the gait
+  Scenario scenario = test::LoadScenario("flat", {"start=standing"});
+  const std::vector<std::size_t> tour = TourOfAllPairs(variants.settings.size());
+  for (std::size_t i = 0; i < tour.size(); ++i)
+    scenario.controller_changes.push_back(
+        {kFirst_s + kEvery_s * static_cast<double>(i), {variants.settings[tour[i]]}});
+  scenario.duration_s = kFirst_s + kEvery_s * static_cast<double>(tour.size()) + 2.0;
+
+  const core::RobotDescription robot = core::LoadRobot(scenario.robot);
+  const terrains::Heightfield ground =
+      terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);
+  constexpr double kAfter_s = 0.05;
+  double ordinary_Nm = 0.0, switching_Nm = 0.0, switched_s = -1.0;
+  std::array<double, kNumJoints> last{};
+  std::size_t changes = 0;
+  EpisodeSinks sinks;
+  sinks.on_event = [&](double time_s, const std::string& kind, const std::string&) {
+    if (kind != "controller_change") return;
+    switched_s = time_s;
+    ++changes;
+  };
+  sinks.on_row = [&](const core::LogRow& row, const core::SolveTimes&) {
+    double step_Nm = 0.0;
+    for (std::size_t j = 0; j < last.size(); ++j)
+      step_Nm = std::max(step_Nm, std::abs(row.tau_Nm[j] - last[j]));
+    last = row.tau_Nm;
+    if (row.time_s < 2.0) return;
+    const bool after = switched_s >= 0.0 && row.time_s - switched_s < kAfter_s;
+    double& largest = after ? switching_Nm : ordinary_Nm;
+    largest = std::max(largest, step_Nm);
+  };
+  EXPECT_EQ(RunEpisode(scenario, robot, ground, sinks).falls, 0);
+  EXPECT_EQ(changes, tour.size());
+  EXPECT_LE(switching_Nm, ordinary_Nm);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Every, SwitchWhileWalking,
+    ::testing::Values(
+        Variants{"gait",
+                 {"gait.type=ags", "gait.type=sgs", "gait.type=sgs_matched", "gait.type=bio"}},
+        Variants{"mpc", {"mpc.horizon=10", "mpc.horizon=20", "mpc.latency_ticks=3"}},
+        Variants{"wbc",
+                 {"wbc={type: tsid}", "wbc={type: tsid, formulation: reduced}",
+                  "wbc={type: tsid, formulation: full}", "wbc={type: inverse_dynamics}"}},
+        Variants{"contact",
+                 {"contact.type=hierarchy", "contact.type=sensor", "contact.type=momentum_observer",
+                  "contact.type=gait_phase", "contact.type=truth"}},
+        Variants{"estimator", {"estimator.type=inekf", "estimator.type=linear_kf"}},
+        Variants{"adaptation",
+                 {"adaptation.type=none", "adaptation.type=kf", "adaptation.type=rls",
+                  "adaptation.type=kf_plus"}}),
+    [](const auto& test) { return std::string(test.param.stage); });
 
 TEST(Slope, IsClimbedDescendedAndCrossed) {
   for (const double uphill_rad : {0.0, 1.5708, 3.1416}) {

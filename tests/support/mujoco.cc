@@ -43,6 +43,26 @@ std::string Geoms(const core::RobotDescription& robot, int body) {
   return xml;
 }
 
+/// A body of its own, so that MuJoCo and not scoria joins it to the trunk.
+std::string PayloadXml(const sim::PayloadParams& p) {
+  const bool is_box = p.size_m != Vec3::Zero() && p.inertia_kgm2 == Vec3::Zero();
+  const std::string inertia =
+      is_box
+          ? fmt::format("<geom type='box' size='{}' mass='{:.17g}' contype='0' conaffinity='0'/>",
+                        Numbers(Vec3(0.5 * p.size_m)), p.mass_kg)
+          : fmt::format("<inertial pos='0 0 0' mass='{:.17g}' diaginertia='{}'/>", p.mass_kg,
+                        Numbers(p.inertia_kgm2));
+  return fmt::format("<body pos='{}' euler='{}'>{}</body>", Numbers(p.p_BP_m), Numbers(p.rpy_rad),
+                     inertia);
+}
+
+std::string SlidingXml(const sim::SlidingPayloadParams& p) {
+  return fmt::format(
+      "<body pos='{}'><joint type='slide' axis='{}' stiffness='{}' damping='{}'/>"
+      "<inertial pos='0 0 0' mass='{:.17g}' diaginertia='1e-10 1e-10 1e-10'/></body>",
+      Numbers(p.p_BP_m), Numbers(p.axis), p.stiffness_N_per_m, p.damping_Ns_per_m, p.mass_kg);
+}
+
 std::string LegXml(const core::RobotDescription& robot, Leg leg, const MujocoOptions& options) {
   const core::LegDescription& l = robot.legs[leg];
   const core::MotorParams& motors = robot.config.motors;
@@ -68,6 +88,8 @@ std::string LegXml(const core::RobotDescription& robot, Leg leg, const MujocoOpt
 std::string Mjcf(const core::RobotDescription& robot, const MujocoOptions& options) {
   std::string legs, asset, ground;
   for (const Leg leg : kLegs) legs += LegXml(robot, leg, options);
+  for (const sim::PayloadParams& p : options.payloads) legs += PayloadXml(p);
+  if (options.sliding) legs += SlidingXml(*options.sliding);
   if (options.ground != nullptr) {
     const terrains::Heightfield& g = *options.ground;
     legs += Geoms(robot, 0);
@@ -80,7 +102,8 @@ std::string Mjcf(const core::RobotDescription& robot, const MujocoOptions& optio
         g.min_m(), g.substrate().friction);
   }
   return fmt::format(
-      "<mujoco><compiler angle='radian' inertiafromgeom='false' boundmass='0' boundinertia='0'/>"
+      "<mujoco><compiler angle='radian' eulerseq='XYZ' inertiafromgeom='auto' boundmass='0' "
+      "boundinertia='0'/>"
       "<option gravity='0 0 -{}' timestep='{}' cone='elliptic'/>{}<worldbody>{}<body "
       "name='B'><freejoint/>{}{}</body></worldbody></mujoco>",
       options.gravity_mps2, options.step_s, asset, ground, Inertial(robot.trunk), legs);

@@ -2,12 +2,16 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <mujoco/mujoco.h>
 
 #include "core/robot/description.h"
 #include "core/robot/state.h"
+#include "sim/payload.h"
+#include "sim/sliding_payload.h"
 #include "terrains/heightfield.h"
 
 namespace scoria::test {
@@ -15,8 +19,10 @@ namespace scoria::test {
 struct MujocoOptions {
   double gravity_mps2 = 9.81;
   double step_s = 0.001;
-  bool joint_losses = false;                      // damping and friction of the motors
-  const terrains::Heightfield* ground = nullptr;  // with feet and bodies that touch it
+  bool joint_losses = false;                              // damping and friction of the motors
+  const terrains::Heightfield* ground = nullptr;          // with feet and bodies that touch it
+  std::vector<sim::PayloadParams> payloads = {};          // welded to the trunk
+  std::optional<sim::SlidingPayloadParams> sliding = {};  // the last joint
 };
 
 /// A robot in MuJoCo, an independent physics engine: free joint, twelve hinges with armature, a

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "controller/estimation/momentum_observer.h"
+#include "controller/model/momentum_observer.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "controller/adaptation/hand_over.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace scoria::controller {
+
+HandOver::HandOver(const HandOverParams& params, const core::RobotDescription& robot) noexcept
+    : params_(params), robot_(robot) {
+  for (const core::LegDescription& leg : robot.legs) {
+    const Vec3 hip = leg.joints[0].p_PJ + leg.joints[0].R_PJ * leg.joints[1].p_PJ;
+    hips_m_ = hips_m_.cwiseMax(hip.head<2>().cwiseAbs());
+  }
+}
+
+Vec3 HandOver::Clamp(const Vec3& dpi) const noexcept {
+  if (!dpi.allFinite()) return Vec3::Zero();
+  const core::Body& trunk = robot_.trunk;
+  const double mass = std::clamp(trunk.mass_kg + dpi[0], params_.min_trunk_share * trunk.mass_kg,
+                                 trunk.mass_kg + params_.max_payload_kg);
+  const Vec2 nominal = trunk.mass_kg * trunk.p_LC.head<2>();
+  const Vec2 c = (nominal + dpi.tail<2>()) / mass;
+  const Vec2 inside = c.cwiseMax(-hips_m_).cwiseMin(hips_m_);
+  Vec3 out;
+  out << mass - trunk.mass_kg, mass * inside - nominal;
+  return out;
+}
+
+Vec3 HandOver::Continue(const core::ModelParameters& in_use) noexcept {
+  const core::Body& trunk = robot_.trunk;
+  const Vec2 excess = in_use.trunk_mass_kg * in_use.p_BC_trunk.head<2>() -
+                      trunk.mass_kg * trunk.p_LC.head<2>();
+  handed_ = goal_ = {in_use.trunk_mass_kg - trunk.mass_kg, excess.x(), excess.y()};
+  return handed_;
+}
+
+core::ModelParameters HandOver::CalcTrunk(const Vec3& dpi) const noexcept {
+  const core::Body& trunk = robot_.trunk;
+  core::ModelParameters out;
+  out.trunk_mass_kg = trunk.mass_kg + dpi[0];
+  const Vec3 excess(dpi[1], dpi[2], dpi[0] * params_.payload_height_m);
+  out.p_BC_trunk = (trunk.mass_kg * trunk.p_LC + excess) / out.trunk_mass_kg;
+  if (dpi[0] <= 0.0) {
+    // What was taken away may have been anywhere: a lighter trunk of the same shape.
+    out.I_C_B_trunk = trunk.I_C_L * (out.trunk_mass_kg / trunk.mass_kg);
+    return out;
+  }
+  // The place of a small mass is uncertain, but never outside the trunk.
+  Vec3 p_BP = excess / dpi[0];
+  p_BP.head<2>() = p_BP.head<2>().cwiseMax(-hips_m_).cwiseMin(hips_m_);
+  const Vec3 d = p_BP - trunk.p_LC;
+  const double reduced = trunk.mass_kg * dpi[0] / out.trunk_mass_kg;
+  out.I_C_B_trunk =
+      trunk.I_C_L + reduced * (d.squaredNorm() * Mat3::Identity() - d * d.transpose());
+  return out;
+}
+
+Adaptation HandOver::Update(const Vec3& dpi_any, const Mat3& P, const core::WholeBody& nominal,
+                            double dt_s) noexcept {
+  const Vec3 dpi = Clamp(dpi_any);
+  const Vec3 limit(params_.max_sigma_kg, params_.max_sigma_kgm, params_.max_sigma_kgm);
+  const Vec3 variance = P.diagonal();
+  const double worst = variance.cwiseQuotient(limit.cwiseProduct(limit)).maxCoeff();
+  if (worst <= 1.0) goal_ = dpi;
+
+  const Vec3 step = dt_s * Vec3(params_.rate_kgps, params_.rate_kgmps, params_.rate_kgmps);
+  const Vec3 next = Clamp(handed_ + (goal_ - handed_).cwiseMax(-step).cwiseMin(step));
+  Adaptation out;
+  out.changed = next != handed_;
+  handed_ = next;
+  out.parameters = CalcTrunk(handed_);
+  out.mass_kg = nominal.mass_kg + dpi[0];
+  const Vec3 p_BC = nominal.state.R_WB.transpose() * (nominal.p_WC - nominal.state.p_WB);
+  const Vec3 excess(dpi[1], dpi[2], dpi[0] * params_.payload_height_m);
+  out.p_BC = (nominal.mass_kg * p_BC + excess) / out.mass_kg;
+  out.P = P;
+  out.quality = 1.0 / (1.0 + std::max(0.0, worst));
+  return out;
+}
+
+}  // namespace scoria::controller

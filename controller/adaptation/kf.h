@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "controller/adaptation/hand_over.h"
+#include "controller/adaptation/model_adapter.h"
+
+namespace scoria::controller {
+
+/// The Kalman filter's recursion for π = [m; m c_x; m c_y] as a random walk with six measurements.
+/// Source: [Paper] eqs. KF1 to KF5, in Joseph's form.
+struct MassKalmanFilter {
+  Vec3 pi = Vec3::Zero();
+  Mat3 P = Mat3::Identity();
+
+  /// @param Q  diagonal of the process noise of one step. @param R  of the measurement noise.
+  void Update(const Mat63& Phi, const Vec6& z, const Vec3& Q, const Vec6& R) noexcept;
+};
+
+/// The paper's model adaptation:
+///   m (v̇ + g) = Σ F,   c × m g = Σ r × F,   F = (Jᵀ)⁻¹ τ,
+/// with massless legs, c_z = 0, no rotation, in heading axes (inertial ones up to the yaw, so that
+/// c stays with the robot when it turns) and about B's origin, at single samples.
+/// Source: [Paper] eqs. EOM1, EOM2, KF1 to KF5; differs: nothing but the axes' yaw.
+class AdaptationKf final : public ModelAdapter {
+ public:
+  /// `robot` is borrowed.
+  AdaptationKf(const AdaptationKfParams& params, const core::RobotDescription& robot,
+               double gravity_mps2) noexcept;
+
+  [[nodiscard]] const Adaptation& Update(const AdapterInput& in) noexcept override;
+
+  void Continue(const core::ModelParameters& in_use) noexcept override;
+
+ private:
+  void Correct(const AdapterInput& in, double dt_s) noexcept;
+
+  AdaptationKfParams params_;
+  const core::RobotDescription& robot_;
+  double gravity_mps2_;
+  core::WholeBodyModel model_;
+  core::WholeBody wb_;
+  MassKalmanFilter filter_;
+  HandOver hand_over_;
+  Adaptation out_;
+  double since_s_ = 0.0;
+};
+
+}  // namespace scoria::controller

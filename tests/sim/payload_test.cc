@@ -1,0 +1,469 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/payload.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "core/math/so3.h"
+#include "sim/world.h"
+#include "tests/support/robots.h"
+
+namespace scoria::sim {
+namespace {
+
+const Vec3 kGravity(0.0, 0.0, -9.81);
+
+core::ModelParameters BareTrunk() {
+  const core::Body& trunk = test::Go2().trunk;
+  return {trunk.mass_kg, trunk.p_LC, trunk.I_C_L};
+}
+
+PayloadParams Plate() {
+  return {"plate", 5.0, {0.02, 0.05, 0.09}, {0.1, 0.2, 0.3}, {0.2, 0.2, 0.02}};
+}
+
+PayloadEvent AddAt(double at_s, const PayloadParams& body) {
+  PayloadEvent e;
+  e.at_s = at_s;
+  e.body = body;
+  return e;
+}
+
+PayloadEvent EventAt(double at_s, PayloadAction action, const std::string& payload) {
+  PayloadEvent e;
+  e.at_s = at_s;
+  e.action = action;
+  e.payload = payload;
+  return e;
+}
+
+LegArray<Vec3> Hold(const RobotState& s, const LegArray<Vec3>& q) {
+  LegArray<Vec3> tau = ZeroPerLeg();
+  for (const Leg leg : kLegs) tau[leg] = 200.0 * (q[leg] - s.q[leg]) - 5.0 * s.qd[leg];
+  return tau;
+}
+
+/// Linear momentum, and angular momentum about W's origin, of the robot with a trunk.
+Vec6 Momentum(const core::ModelParameters& trunk, const RobotState& state) {
+  core::WholeBodyModel model(test::Go2(), Vec3::Zero());
+  model.SetParameters(trunk);
+  core::WholeBody wb;
+  model.Calc(state, wb);
+  Vec6 out = CalcMomentum(wb);
+  out.tail<3>() += wb.p_WC.cross(out.head<3>());
+  return out;
+}
+
+/// Of a body that moves with the trunk.
+Vec6 Momentum(const RigidMass& body, const RobotState& s) {
+  const Vec3 r_W = s.R_WB * body.p_BP;
+  const Vec3 p_W = body.mass_kg * (s.v_WB + s.w_WB.cross(r_W));
+  Vec6 out;
+  out << p_W, (s.p_WB + r_W).cross(p_W) + s.R_WB * body.I_P_B * s.R_WB.transpose() * s.w_WB;
+  return out;
+}
+
+TEST(Payload, CompositionEqualsAHandCalculation) {
+  const core::ModelParameters trunk{3.0, {0.1, 0.0, 0.0}, Vec3(1.0, 2.0, 3.0).asDiagonal()};
+  const std::vector<RigidMass> point = {{1.0, {0.5, 0.0, 0.4}}};
+  const core::ModelParameters sum = AddBodies(trunk, point);
+  EXPECT_DOUBLE_EQ(sum.trunk_mass_kg, 4.0);
+  EXPECT_LT((sum.p_BC_trunk - Vec3(0.2, 0.0, 0.1)).norm(), 1e-15);
+  Mat3 I;
+  I << 1.12, 0.0, -0.12, 0.0, 2.24, 0.0, -0.12, 0.0, 3.12;
+  EXPECT_LT((sum.I_C_B_trunk - I).norm(), 1e-14);
+  EXPECT_EQ(AddBodies(trunk, {}), trunk);
+  EXPECT_EQ(AddBodies(trunk, std::vector<RigidMass>{{0.0, {0.5, 0.0, 0.4}}}), trunk);
+}
+
+TEST(Payload, InertiaIsTheBoxsOrAsGivenAndTurnsWithIt) {
+  PayloadParams p{"box", 12.0, Vec3::Zero(), {0.0, 0.0, std::numbers::pi / 2}, {1.0, 2.0, 3.0}};
+  const Mat3 box = Vec3(10.0, 13.0, 5.0).asDiagonal();
+  EXPECT_LT((ToRigidMass(p).I_P_B - box).norm(), 1e-13);
+  p.inertia_kgm2 = {4.0, 5.0, 6.0};
+  const Mat3 given = Vec3(5.0, 4.0, 6.0).asDiagonal();
+  EXPECT_LT((ToRigidMass(p).I_P_B - given).norm(), 1e-13);
+  EXPECT_EQ(ToRigidMass({"point", 2.0}).I_P_B, Mat3::Zero());
+}
+
+TEST(Payload, MomentumIsConservedWhereTheBodyWasAtRest) {
+  const terrains::Heightfield ground = test::FlatGround();
+  World world(test::Go2(), ground, {}, Vec3::Zero());
+  core::Rng rng(31, 0, core::Stream::kSensor);
+  for (int trial = 0; trial < 20; ++trial) {
+    RobotState s = test::RandomState(rng);
+    s.p_WB.z() = 5.0;
+    world.SetTrunkParameters(BareTrunk(), AttachVelocity::kMatched);
+    world.Reset(s);
+    world.Step(ZeroPerLeg());
+    const Truth before = world.truth();
+    PayloadEvent add = AddAt(0.0, Plate());
+    add.attach_velocity = AttachVelocity::kRest;
+    PayloadRack rack(BareTrunk(), {add});
+    const std::vector<TrunkChange> changes = rack.Update(0.1, 0.0);
+    ASSERT_EQ(changes.size(), 1u);
+    world.SetTrunkParameters(changes[0].trunk, changes[0].attach_velocity);
+    const Truth& after = world.truth();
+    const Vec6 P = Momentum(before.trunk, before.state), Q = Momentum(after.trunk, after.state);
+    EXPECT_LT((Q - P).head<3>().norm(), 1e-9 * P.head<3>().norm()) << trial;
+    EXPECT_LT((Q - P).tail<3>().norm(), 1e-9 * P.tail<3>().norm()) << trial;
+    EXPECT_LT(after.energy.kinetic_J, before.energy.kinetic_J) << "a plastic impact";
+    EXPECT_NEAR(after.energy.Error_J(), before.energy.Error_J(), 1e-9);
+  }
+}
+
+TEST(Payload, MatchedBodyBringsAndTakesItsOwnMomentum) {
+  const terrains::Heightfield ground = test::FlatGround();
+  World world(test::Go2(), ground, {}, Vec3::Zero());
+  core::Rng rng(32, 0, core::Stream::kSensor);
+  const RigidMass plate = ToRigidMass(Plate());
+  for (int trial = 0; trial < 20; ++trial) {
+    PayloadRack rack(BareTrunk(),
+                     {AddAt(0.0, Plate()), EventAt(1.0, PayloadAction::kRemove, "plate")});
+    RobotState s = test::RandomState(rng);
+    s.p_WB.z() = 5.0;
+    world.Reset(s);
+    const Vec6 bare = Momentum(BareTrunk(), s);
+    world.SetTrunkParameters(rack.Update(0.1, 0.0).at(0).trunk, AttachVelocity::kMatched);
+    EXPECT_EQ(world.truth().state, s);
+    const Vec6 loaded = Momentum(world.truth().trunk, s), own = Momentum(plate, s);
+    EXPECT_LT((loaded - bare - own).head<3>().norm(), 1e-9 * loaded.head<3>().norm()) << trial;
+    EXPECT_LT((loaded - bare - own).tail<3>().norm(), 1e-9 * loaded.tail<3>().norm()) << trial;
+    world.SetTrunkParameters(rack.Update(1.1, 0.0).at(0).trunk, AttachVelocity::kMatched);
+    EXPECT_EQ(Momentum(world.truth().trunk, world.truth().state), bare);
+  }
+}
+
+TEST(Payload, ImpactIsFeltInTheNextStepsAcceleration) {
+  const terrains::Heightfield ground = test::FlatGround();
+  const PhysicsParams params;
+  World world(test::Go2(), ground, params, Vec3::Zero());
+  RobotState s = test::StandingState();
+  s.p_WB.z() = 5.0;
+  s.v_WB = {1.0, 0.0, 0.0};
+  world.Reset(s);
+  world.SetTrunkParameters(AddBodies(BareTrunk(), std::vector<RigidMass>{ToRigidMass(Plate())}),
+                           AttachVelocity::kRest);
+  world.Step(ZeroPerLeg());
+  const Truth& t = world.truth();
+  EXPECT_LT(t.state.v_WB.x(), 0.9);
+  EXPECT_LT((t.a_WB * params.step_s - (t.state.v_WB - s.v_WB)).norm(), 1e-12);
+  world.Step(ZeroPerLeg());
+  EXPECT_GT(world.truth().a_WB.x() * params.step_s, -0.01);
+}
+
+TEST(PayloadRack, AddedThenRemovedRestoresTheTrunkBitForBit) {
+  const PayloadParams kit{"kit", 1.19, {0.0137, -0.021, 0.11}, {0.3, 0.1, 0.7}, {0.18, 0.14, 0.06}};
+  PayloadEvent slow = AddAt(2.0, kit), shed = EventAt(4.0, PayloadAction::kShed, "plate");
+  slow.duration_s = 0.7;
+  shed.share = 0.3;
+  PayloadEvent gone = EventAt(6.0, PayloadAction::kRemove, "plate");
+  gone.duration_s = 0.37;
+  PayloadRack rack(BareTrunk(), {AddAt(1.0, Plate()), slow, shed, gone,
+                                 EventAt(7.0, PayloadAction::kRemove, "kit")});
+  const terrains::Heightfield ground = test::FlatGround();
+  World world(test::Go2(), ground, {}, kGravity);
+  const core::ModelParameters before = world.truth().trunk;
+  int changes = 0;
+  for (int i = 0; i < 8000; ++i) {
+    for (const TrunkChange& change : rack.Update(0.001 * i, 0.0)) {
+      world.SetTrunkParameters(change.trunk, change.attach_velocity);
+      ++changes;
+    }
+    if (i == 1500) {
+      EXPECT_EQ(rack.total().mass_kg, 5.0);
+    }
+    if (i == 6500) {
+      EXPECT_EQ(rack.trunk(), AddBodies(BareTrunk(), std::vector<RigidMass>{ToRigidMass(kit)}));
+      EXPECT_EQ(rack.count(), 1);
+    }
+  }
+  EXPECT_GT(changes, 1000);
+  EXPECT_EQ(before, BareTrunk());
+  EXPECT_EQ(rack.trunk(), before);
+  EXPECT_EQ(world.truth().trunk, before);
+  EXPECT_EQ(rack.count(), 0);
+  EXPECT_EQ(rack.total(), RigidMass{});
+}
+
+TEST(PayloadRack, GradualEventsRunOnTheClock) {
+  PayloadEvent add = AddAt(1.0, Plate());
+  add.duration_s = 4.0;
+  PayloadRack rack(BareTrunk(), {add});
+  EXPECT_TRUE(rack.Update(1.0, 0.0).empty());
+  EXPECT_TRUE(rack.announcements().empty());
+  EXPECT_EQ(rack.Update(2.0, 0.0).size(), 1u);
+  ASSERT_EQ(rack.announcements().size(), 1u);
+  EXPECT_EQ(rack.announcements()[0],
+            "payload plate added over 4 s: 5 kg at (0.020, 0.050, 0.090) m");
+  EXPECT_DOUBLE_EQ(rack.total().mass_kg, 1.25);
+  EXPECT_LT((rack.total().I_P_B - 0.25 * ToRigidMass(Plate()).I_P_B).norm(), 1e-15);
+  EXPECT_TRUE(rack.Update(2.0, 0.0).empty()) << "the clock stands still";
+  EXPECT_TRUE(rack.announcements().empty());
+  EXPECT_EQ(rack.Update(5.0, 0.0).size(), 1u);
+  EXPECT_EQ(rack.total().mass_kg, 5.0);
+  EXPECT_TRUE(rack.Update(9.0, 0.0).empty());
+}
+
+TEST(PayloadRack, EventsBeginAtADistance) {
+  PayloadEvent add = AddAt(0.0, Plate());
+  add.at_s.reset();
+  add.distance_m = 3.0;
+  add.duration_s = 2.0;
+  PayloadRack rack(BareTrunk(), {add});
+  EXPECT_TRUE(rack.Update(50.0, 2.9).empty());
+  EXPECT_TRUE(rack.Update(60.0, 3.1).empty()) << "it begins with nothing";
+  EXPECT_EQ(rack.announcements().size(), 1u);
+  EXPECT_EQ(rack.Update(61.0, 3.2).size(), 1u);
+  EXPECT_DOUBLE_EQ(rack.total().mass_kg, 2.5);
+}
+
+TEST(PayloadRack, MovedBodyGoesStraightAndTurns) {
+  PayloadEvent move = EventAt(1.0, PayloadAction::kMove, "plate");
+  move.p_BP_m = Vec3(0.02, -0.15, 0.09);
+  move.rpy_rad = Vec3(0.0, 0.0, 1.2);
+  move.duration_s = 2.0;
+  PayloadRack rack(BareTrunk(), {AddAt(0.0, Plate()), move});
+  EXPECT_EQ(rack.Update(0.5, 0.0).size(), 1u);
+  EXPECT_EQ(rack.Update(2.0, 0.0).size(), 1u);
+  EXPECT_EQ(rack.announcements().at(0),
+            "payload plate moved over 2 s: 5 kg to (0.020, -0.150, 0.090) m");
+  EXPECT_LT((rack.total().p_BP - Vec3(0.02, -0.05, 0.09)).norm(), 1e-15);
+  EXPECT_EQ(rack.Update(4.0, 0.0).size(), 1u);
+  PayloadParams there = Plate();
+  there.p_BP_m = *move.p_BP_m;
+  there.rpy_rad = *move.rpy_rad;
+  EXPECT_LT((rack.total().p_BP - there.p_BP_m).norm(), 1e-15);
+  EXPECT_LT((rack.total().I_P_B - ToRigidMass(there).I_P_B).norm(), 1e-15);
+}
+
+TEST(PayloadRack, ShedBodyKeepsTheRestInItsPlace) {
+  PayloadEvent shed = EventAt(1.0, PayloadAction::kShed, "plate");
+  shed.share = 0.4;
+  PayloadRack rack(BareTrunk(), {AddAt(0.0, Plate()), shed});
+  (void)rack.Update(0.5, 0.0);
+  EXPECT_EQ(rack.Update(1.5, 0.0).size(), 1u);
+  EXPECT_EQ(rack.announcements().at(0),
+            "payload plate loses a part: 2 of 5 kg at (0.020, 0.050, 0.090) m");
+  const RigidMass whole = ToRigidMass(Plate());
+  EXPECT_DOUBLE_EQ(rack.total().mass_kg, 3.0);
+  EXPECT_LT((rack.total().p_BP - whole.p_BP).norm(), 1e-15);
+  EXPECT_LT((rack.total().I_P_B - 0.6 * whole.I_P_B).norm(), 1e-15);
+}
+
+TEST(PayloadRack, MatchedAndRestedBodiesInOneStepAreTwoChanges) {
+  PayloadParams other = Plate();
+  other.name = "other";
+  PayloadEvent rested = AddAt(1.0, Plate());
+  rested.attach_velocity = AttachVelocity::kRest;
+  PayloadRack rack(BareTrunk(), {rested, AddAt(1.0, other)});
+  const std::vector<TrunkChange> changes = rack.Update(1.5, 0.0);
+  ASSERT_EQ(changes.size(), 2u);
+  EXPECT_EQ(changes[0].attach_velocity, AttachVelocity::kMatched);
+  EXPECT_EQ(changes[0].trunk, AddBodies(BareTrunk(), std::vector<RigidMass>{ToRigidMass(other)}));
+  EXPECT_EQ(changes[1].attach_velocity, AttachVelocity::kRest);
+  EXPECT_EQ(changes[1].trunk, rack.trunk());
+}
+
+TEST(PayloadRack, EventWithoutItsBodyDoesNothingAndSaysSo) {
+  PayloadRack rack(BareTrunk(), {EventAt(1.0, PayloadAction::kRemove, "plate"), AddAt(2.0, Plate()),
+                                 AddAt(3.0, Plate())});
+  EXPECT_TRUE(rack.Update(1.5, 0.0).empty());
+  EXPECT_EQ(rack.announcements().at(0), "payload plate: nothing to remove, it is not on the trunk");
+  EXPECT_EQ(rack.Update(2.5, 0.0).size(), 1u);
+  EXPECT_TRUE(rack.Update(3.5, 0.0).empty());
+  EXPECT_EQ(rack.announcements().at(0), "payload plate not added: it is on the trunk");
+}
+
+TEST(PayloadEvent, MistakesAreNamed) {
+  using enum PayloadAction;
+  EXPECT_EQ(AddAt(0.0, Plate()).Problem(), "");
+  PayloadEvent e = AddAt(0.0, Plate());
+  e.distance_m = 3.0;
+  EXPECT_EQ(e.Problem(), "needs one of at_s and distance_m");
+  e.at_s.reset();
+  EXPECT_EQ(e.Problem(), "");
+  e.distance_m.reset();
+  EXPECT_EQ(e.Problem(), "needs one of at_s and distance_m");
+  e = AddAt(0.0, Plate());
+  e.share = 0.5;
+  EXPECT_EQ(e.Problem(), "share: add has none");
+  e = AddAt(0.0, Plate());
+  e.payload = "plate";
+  EXPECT_EQ(e.Problem(), "payload: add has none");
+  e.body.reset();
+  EXPECT_EQ(e.Problem(), "body: add needs one");
+  EXPECT_EQ(EventAt(0.0, kRemove, "").Problem(), "payload: remove needs the name of one");
+  EXPECT_EQ(EventAt(0.0, kMove, "plate").Problem(), "move needs p_BP_m, rpy_rad or both");
+  EXPECT_EQ(EventAt(0.0, kShed, "plate").Problem(),
+            "share: shed needs one in (0, 1); remove takes all");
+  e = EventAt(0.0, kRemove, "plate");
+  e.p_BP_m = Vec3::Zero();
+  EXPECT_EQ(e.Problem(), "p_BP_m: remove has none");
+  e = EventAt(0.0, kRemove, "plate");
+  e.attach_velocity = AttachVelocity::kRest;
+  EXPECT_EQ(e.Problem(),
+            "attach_velocity: rest is for add; what remove concerns moves with the trunk");
+  const std::vector<PayloadEvent> strange = {AddAt(0.0, Plate()), EventAt(1.0, kRemove, "plat")};
+  EXPECT_EQ(PayloadProblem(strange), "payload: nothing adds \"plat\"; added: plate");
+  EXPECT_EQ(PayloadProblem(std::span(strange).first(1)), "");
+  EXPECT_EQ(PayloadProblem(std::span(strange).last(1)),
+            "payload: nothing adds \"plat\"; added: none");
+}
+
+TEST(PayloadParams, MistakesAreNamed) {
+  const auto error = [](const std::string& yaml) -> std::string {
+    try {
+      (void)core::ReadConfig<PayloadParams>(core::ParseConfig(yaml, "p.yaml"));
+    } catch (const core::ConfigError& e) {
+      return e.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(error("{name: a, mass_kg: 1}"), "");
+  EXPECT_NE(error("{name: a}").find("mass_kg: is missing and has no default"), std::string::npos);
+  EXPECT_NE(error("{name: a, mass_kg: 0}").find("mass_kg: 0 is outside [0.001, 50]"),
+            std::string::npos)
+      << error("{name: a, mass_kg: 0}");
+  EXPECT_NE(error("{name: '', mass_kg: 1}").find("name: must not be empty"), std::string::npos);
+  EXPECT_NE(error("{name: a, mass_kg: 1, size_m: [0.1, 0, 0.1]}")
+                .find("size_m: either all edges are 0 or none"),
+            std::string::npos);
+  EXPECT_NE(error("{name: a, mass_kg: 1, inertia_kgm2: [1, 1, 3]}")
+                .find("inertia_kgm2: no body has a moment greater than the sum of the other two"),
+            std::string::npos);
+}
+
+TEST(PayloadEvent, IsReadAndWrittenBack) {
+  const auto event = core::ReadConfig<PayloadEvent>(core::ParseConfig(
+      "{distance_m: 5, action: add, attach_velocity: rest, duration_s: 2, body: {name: rock, "
+      "mass_kg: 0.8, p_BP_m: [0, 0.1, 0.1]}}",
+      "e.yaml"));
+  EXPECT_EQ(event.name(), "rock");
+  EXPECT_EQ(event.attach_velocity, AttachVelocity::kRest);
+  EXPECT_EQ(core::ReadConfig<PayloadEvent>(core::WriteConfig(event)), event);
+}
+
+TEST(PayloadLibrary, FilesHaveTheMassTheirNameSays) {
+  const std::vector<std::pair<std::string, double>> masses = {
+      {"plate_1_25kg", 1.25}, {"plate_2_5kg", 2.5},     {"plate_5kg", 5.0},
+      {"field_kit", 1.19},    {"sample_canister", 2.0}, {"instrument_off_centre", 5.0}};
+  for (const auto& [name, mass_kg] : masses) {
+    const auto payload = core::ReadConfig<PayloadParams>(
+        core::LoadConfig(test::SourcePath("robots/payloads/" + name + ".yaml")));
+    EXPECT_EQ(payload.name, name);
+    EXPECT_EQ(payload.mass_kg, mass_kg);
+    EXPECT_GT(ToRigidMass(payload).I_P_B.trace(), 0.0) << name;
+  }
+}
+
+TEST(World, StandsUnderAPlateThatIsPutOnItsBack) {
+  const terrains::Heightfield ground = test::FlatGround();
+  World world(test::Go2(), ground, {}, kGravity);
+  const RobotState start = test::StandingState();
+  world.Reset(start);
+  PayloadEvent add = AddAt(1.0, Plate());
+  add.attach_velocity = AttachVelocity::kRest;
+  PayloadRack rack(BareTrunk(), {add});
+  double worst_J = 0.0;
+  for (int i = 0; i < 4000; ++i) {
+    for (const TrunkChange& change : rack.Update(0.001 * i, 0.0))
+      world.SetTrunkParameters(change.trunk, change.attach_velocity);
+    world.Step(Hold(world.truth().state, start.q));
+    worst_J = std::max(worst_J, std::abs(world.truth().energy.Error_J()));
+  }
+  const Truth& t = world.truth();
+  Vec3 sum = Vec3::Zero();
+  for (const Leg leg : kLegs) sum += t.f_F_W[leg];
+  EXPECT_DOUBLE_EQ(t.mass_kg, test::Go2().total_mass_kg() + 5.0);
+  EXPECT_NEAR(sum.z(), t.mass_kg * 9.81, 0.05);
+  EXPECT_NEAR(sum.head<2>().norm(), 0.0, 0.05);
+  EXPECT_NEAR(t.energy.work.external_J, 20.0, 1.0) << "m g z of the plate";
+  EXPECT_LT(worst_J, 1e-4);
+}
+
+TEST(World, ResetKeepsThePayload) {
+  const terrains::Heightfield ground = test::FlatGround();
+  World world(test::Go2(), ground, {}, kGravity);
+  const std::vector<RigidMass> plate = {ToRigidMass(Plate())};
+  world.SetTrunkParameters(AddBodies(BareTrunk(), plate), AttachVelocity::kMatched);
+  world.Reset(test::StandingState());
+  EXPECT_DOUBLE_EQ(world.truth().mass_kg, test::Go2().total_mass_kg() + 5.0);
+  EXPECT_EQ(world.truth().energy.Error_J(), 0.0);
+}
+
+SlidingPayloadParams Block() { return {"block", 2.0, {0.0, 0.0, 0.1}, Vec3::UnitY(), 300.0, 4.0}; }
+
+TEST(SlidingPayload, ComesToRestOnAStandingRobotAndIsCarried) {
+  const terrains::Heightfield ground = test::FlatGround();
+  const double tilt = 0.1;  // gravity to the left
+  World world(test::Go2(), ground, {}, 9.81 * Vec3(0.0, std::sin(tilt), -std::cos(tilt)), Block());
+  const RobotState start = test::StandingState();
+  world.Reset(start);
+  double worst_J = 0.0, widest_m = 0.0;
+  for (int i = 0; i < 12000; ++i) {
+    world.Step(Hold(world.truth().state, start.q));
+    worst_J = std::max(worst_J, std::abs(world.truth().energy.Error_J()));
+    widest_m = std::max(widest_m, world.truth().slide_m);
+  }
+  const Truth& t = world.truth();
+  const double roll = core::RpyFromRotation(t.state.R_WB).x();
+  const double pull_N = 2.0 * 9.81 * std::sin(tilt - roll);
+  EXPECT_NEAR(t.slide_m, pull_N / 300.0, 1e-5);
+  EXPECT_GT(widest_m, 1.3 * t.slide_m) << "it swings";
+  EXPECT_LT(std::abs(t.slide_mps), 1e-4);
+  Vec3 sum = Vec3::Zero();
+  for (const Leg leg : kLegs) sum += t.f_F_W[leg];
+  EXPECT_NEAR(sum.norm(), (test::Go2().total_mass_kg() + 2.0) * 9.81, 0.1);
+  EXPECT_LT(worst_J, 1e-4);
+}
+
+TEST(SlidingPayload, MomentumIsKeptInFlightAndInAnImpact) {
+  const terrains::Heightfield ground = test::FlatGround();
+  World world(test::Go2(), ground, {}, Vec3::Zero(), Block());
+  RobotState s = test::StandingState();
+  s.p_WB.z() = 5.0;
+  s.v_WB = {0.5, 1.0, 0.2};
+  s.w_WB = {0.5, -0.4, 0.8};
+  world.Reset(s);
+  const auto momentum = [&] {
+    const Truth& t = world.truth();
+    const Vec3 u_W = t.state.R_WB * Vec3::UnitY();
+    RigidMass block{2.0, Vec3(0.0, t.slide_m, 0.1)};
+    Vec6 own;
+    own << 2.0 * t.slide_mps * u_W,
+        (t.state.p_WB + t.state.R_WB * block.p_BP).cross(2.0 * t.slide_mps * u_W);
+    return Vec6(Momentum(t.trunk, t.state) + Momentum(block, t.state) + own);
+  };
+  const Vec6 start = momentum();
+  for (int i = 0; i < 500; ++i) world.Step(Hold(world.truth().state, s.q));
+  const Vec6 flown = momentum();
+  // First order in the step, as without it.
+  EXPECT_LT((flown - start).head<3>().norm(), 1e-3 * start.head<3>().norm());
+  EXPECT_LT((flown - start).tail<3>().norm(), 1e-3 * start.tail<3>().norm());
+  EXPECT_LT(std::abs(world.truth().energy.Error_J()), 0.002 * world.truth().energy.initial_J);
+  EXPECT_GT(std::abs(world.truth().slide_mps), 1e-4);
+  const double rate_mps = world.truth().slide_mps;
+  world.SetTrunkParameters(AddBodies(BareTrunk(), std::vector<RigidMass>{ToRigidMass(Plate())}),
+                           AttachVelocity::kRest);
+  const Vec6 hit = momentum();
+  EXPECT_LT((hit - flown).head<3>().norm(), 1e-9 * flown.head<3>().norm());
+  EXPECT_LT((hit - flown).tail<3>().norm(), 1e-9 * flown.tail<3>().norm());
+  EXPECT_GT(std::abs(world.truth().slide_mps - rate_mps), 0.05) << "it shoots forth";
+}
+
+TEST(SlidingPayload, MistakesAreNamed) {
+  SlidingPayloadParams p = Block();
+  EXPECT_EQ(p.Problem(), "");
+  p.stiffness_N_per_m = 2e5;
+  EXPECT_EQ(p.Problem(), "stiffness_N_per_m: the step resolves at most 125000 with this mass");
+  p.axis = Vec3::Zero();
+  EXPECT_EQ(p.Problem(), "axis: must not be zero");
+  p.name = "";
+  EXPECT_EQ(p.Problem(), "name: must not be empty");
+}
+
+}  // namespace
+}  // namespace scoria::sim
