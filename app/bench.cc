@@ -10,6 +10,7 @@
 
 #include "app/qp_sets.h"
 #include "app/runner.h"
+#include "controller/estimation/inekf.h"
 #include "controller/stand_up.h"
 #include "core/stopwatch.h"
 #include "sim/actuation.h"
@@ -105,6 +106,40 @@ void BenchModel(const Options& o) {
   }
 }
 
+/// The invariant filter of a robot that stands on four feet: one prediction and one correction.
+void BenchEstimator(const Options& o) {
+  constexpr int kCalls = 20000, kAtOnce = 20;
+  constexpr double kStep_s = 0.001, kFoot_m = 0.003;
+  const core::RobotDescription robot = core::LoadRobot(LoadScenario(o.scenario, o.set).robot);
+  controller::InekfParams params;
+  params.noise = {1e-7 * Mat3::Identity(), 1e-5 * Mat3::Identity(), 1e-10 * Mat3::Identity(),
+                  1e-8 * Mat3::Identity(), 1e-4 * Mat3::Identity()};
+  controller::Inekf filter(params);
+  filter.Set({}, 1e-4 * controller::InekfCovariance::Identity());
+  LegArray<controller::FootMeasurement> feet;
+  for (const Leg leg : kLegs) {
+    feet[leg] = {true, robot.NeutralFoothold(leg), kFoot_m * kFoot_m * Mat3::Identity()};
+    feet[leg].p_SF_S.z() = -robot.config.nominal_height_m;
+  }
+  std::vector<double> us;
+  double nis = 0.0;
+  for (int i = 0; i < kCalls; ++i) {
+    const core::Stopwatch watch;
+    for (int k = 0; k < kAtOnce; ++k) {
+      const Vec3 w_S = Vec3::Constant(0.1 * std::sin(0.01 * (kAtOnce * i + k)));
+      if (filter.Predict({0.0, 0.0, 9.81}, w_S, kStep_s) == controller::InekfStatus::kOk)
+        nis += filter.Correct(feet).nis;
+    }
+    us.push_back(watch.seconds() * 1e6 / kAtOnce);
+  }
+  const nlohmann::json json = {{"estimator", Spread(us)}, {"nis", nis}};
+  if (o.json) {
+    fmt::print("{}\n", json.dump(2));
+  } else {
+    Print("predict and correct", json["estimator"]);
+  }
+}
+
 /// Physics alone: the robot stands on the scenario's ground under joint control.
 void BenchPhysics(const Options& o) {
   constexpr int kSteps = 5000;
@@ -191,6 +226,8 @@ void AddBench(CLI::App& app) {
   qp->add_option("--repeats", o->repeats, "solves per problem, of which the median counts")
       ->check(CLI::Range(1, 1000));
   AddScenario(AddPart(*bench, "model", "time the whole-body model", o, BenchModel), o);
+  AddScenario(
+      AddPart(*bench, "estimator", "time the invariant filter on four feet", o, BenchEstimator), o);
   AddScenario(
       AddPart(*bench, "physics", "time a physics step of a standing robot", o, BenchPhysics), o);
   AddScenario(
