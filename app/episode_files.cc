@@ -62,6 +62,10 @@ EpisodeReport RunToFolder(const Scenario& scenario, const RunOptions& options) {
     }
     if (options.on_event) options.on_event(time_s, kind, detail);
   };
+  if (!options.save_qps.empty() && !scenario.controller_changes.empty())
+    throw std::runtime_error(
+        "--save-qps: the scenario has controller_changes, the saved problems "
+        "would not be of one kind");
   std::optional<QpRecorder> qps;
   if (!options.save_qps.empty()) {
     qps.emplace(options.save_qps, scenario.controller);

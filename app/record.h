@@ -9,12 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "app/rows.h"
 #include "app/scenario.h"
 #include "controller/controller.h"
 #include "core/log/mcap.h"
 #include "core/log/messages.h"
-#include "core/log/row.h"
-#include "sim/actuation.h"
 
 namespace scoria::app {
 
@@ -35,30 +34,6 @@ class MessageSink {
   /// Something happened that a log keeping only falls must show.
   virtual void MarkFall(std::int64_t time_ns) = 0;
 };
-
-/// What the runner knows after one step; borrowed for the call.
-struct StepRecord {
-  std::int64_t step;
-  double time_s;
-  const sim::Truth& truth;
-  const SensorFrame& sensors;
-  const Command& command;
-  const controller::ControlOutput& control;
-  Counters counters;
-  const sim::EnergyMeter& energy;
-  const sim::BatteryState& battery;
-  const LegArray<Vec3>& motor_tau_Nm;
-  double ground_z_m;
-  bool fallen;
-  std::uint32_t segment;
-};
-
-/// The row that analysis sees of a step.
-[[nodiscard]] core::LogRow MakeRow(const StepRecord& record);
-
-/// Writes what the controller believes into a row, beside the truth.
-void FillEstimate(const controller::ControlOutput& control, const RobotState& truth,
-                  core::LogRow& row);
 
 /// Turns steps into the log's messages: the reference framework's topics and ours.
 class Recorder {

@@ -63,10 +63,7 @@ RobotState TrueState(const core::LogRow& row) {
 class Replay {
  public:
   Replay(const Scenario& scenario, const core::RobotDescription& robot)
-      : scenario_(scenario),
-        robot_(robot),
-        changes_(ChangedControllers(scenario)),
-        give_truth_(controller::NeedsTruth(scenario.controller)) {}
+      : scenario_(scenario), robot_(robot), changes_(ChangedControllers(scenario)) {}
 
   void Take(const core::McapReader::Message& m) {
     if (m.channel.topic == "/scoria/controller_start") {
@@ -78,7 +75,9 @@ class Replay {
     } else if (m.channel.topic == "/scoria/event") {
       const auto event = core::DecodeCdr<msg::Event>(m.data);
       const bool change = event.kind == "controller_change" && next_change_ < changes_.size();
-      if (change && controller_) controller_->Reconfigure(changes_[next_change_++]);
+      if (!change) return;
+      const controller::ControllerParams& params = changes_[next_change_++];
+      if (controller_) controller_->Reconfigure(params);
     }
   }
 
@@ -87,7 +86,6 @@ class Replay {
       throw std::runtime_error(
           "the log holds no controller inputs from a start on; record it with log.keep=full");
     }
-    result_.counters += controller_->counters();
     result_.logged = logged_.Finish();
     result_.replayed = replayed_.Finish();
     return result_;
@@ -96,10 +94,11 @@ class Replay {
  private:
   void Start(const msg::ControllerStart& m) {
     using Pose = controller::Start::Pose;
-    if (controller_) result_.counters += controller_->counters();
+    const auto model = controller_ ? std::optional(controller_->model()) : std::nullopt;
     const controller::Start start{m.standing ? Pose::kStanding : Pose::kLying,
                                   {Vec2(m.x_m, m.y_m), m.ground_z_m, m.yaw_rad},
-                                  m.step};
+                                  m.step,
+                                  model};
     controller_.emplace(next_change_ == 0 ? scenario_.controller : changes_[next_change_ - 1],
                         robot_, scenario_.gravity_mps2, scenario_.physics.step_s, start);
     next_step_ = m.step;
@@ -109,12 +108,8 @@ class Replay {
     if (!controller_ || m.step != next_step_) return;
     ++next_step_;
     ++result_.steps;
-    SensorFrame z = ToFrame(m);
-    const bool has_row = row_ && row_->step == m.step;
-    if (give_truth_ && has_row)
-      z.truth = SensorFrame::Truth{TrueState(*row_), ToLegs(row_->true_contact)};
-    const controller::ControlOutput& out = controller_->Step(z, ToCommand(m));
-    if (has_row) Compare(out);
+    const controller::ControlOutput& out = controller_->Step(ToFrame(m), ToCommand(m));
+    if (row_ && row_->step == m.step) Compare(out);
   }
 
   void Compare(const controller::ControlOutput& out) {
@@ -126,6 +121,8 @@ class Replay {
     const bool same = again.est_p_WB_m == row_->est_p_WB_m &&
                       again.est_v_WB_mps == row_->est_v_WB_mps &&
                       again.est_rpy_rad == row_->est_rpy_rad && again.nis == row_->nis &&
+                      again.learned_mass_kg == row_->learned_mass_kg &&
+                      again.contact_source == row_->contact_source &&
                       again.contact == row_->contact && again.est_f_F_W_N == row_->est_f_F_W_N;
     if (!same && result_.identical) {
       result_.identical = false;
@@ -137,7 +134,6 @@ class Replay {
   const core::RobotDescription& robot_;
   std::vector<controller::ControllerParams> changes_;
   std::size_t next_change_ = 0;
-  bool give_truth_;
   std::optional<controller::Controller> controller_;
   std::int64_t next_step_ = 0;
   std::optional<core::LogRow> row_;
@@ -149,7 +145,18 @@ class Replay {
 
 ReplayResult ReplayLog(const std::filesystem::path& log,
                        const std::vector<std::string>& overrides) {
+  for (const std::string& assignment : overrides) {
+    if (!assignment.starts_with("controller."))
+      throw core::ConfigError(
+          {}, "", fmt::format("--set {}: a replay can only change controller.*", assignment));
+  }
   const LogOrigin origin = ReadLogOrigin(log, overrides);
+  if (NeedsTruthEver(origin.scenario))
+    throw std::runtime_error(
+        fmt::format("{}: a controller that runs on the truth cannot be replayed; choose other "
+                    "stages with --set controller.estimator.type=inekf and "
+                    "controller.contact.source=hierarchy",
+                    log.string()));
   const core::RobotDescription robot = core::MakeRobot(origin.scenario.robot, origin.urdf_text);
   const auto replay = std::make_unique<Replay>(origin.scenario, robot);
   const std::string problem =

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "analysis/estimation_metrics.h"
-#include "core/robot/counters.h"
 
 namespace scoria::app {
 
@@ -16,7 +15,6 @@ struct ReplayResult {
   bool identical = true;             // every estimate has the bits of the log's
   double first_difference_s = 0.0;   // if not
   analysis::EstimationMetrics logged, replayed;
-  Counters counters;
   std::string file_problem;  // where the log is damaged
 };
 

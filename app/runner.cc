@@ -35,13 +35,6 @@ bool IsFinite(const RobotState& s) {
   return s.p_WB.allFinite() && s.R_WB.allFinite() && s.v_WB.allFinite() && s.w_WB.allFinite();
 }
 
-bool NeedsTruthEver(const Scenario& scenario) {
-  const std::vector<controller::ControllerParams> changed = ChangedControllers(scenario);
-  return controller::NeedsTruth(scenario.controller) ||
-         std::any_of(changed.begin(), changed.end(),
-                     [](const auto& params) { return controller::NeedsTruth(params); });
-}
-
 /// One episode in progress.
 class Episode {
  public:
@@ -326,7 +319,8 @@ class Episode {
     const controller::Start start{
         standing ? controller::Start::Pose::kStanding : controller::Start::Pose::kLying,
         {p_W, ground_.HeightAt(p_W.x(), p_W.y()), yaw_rad},
-        next_step};
+        next_step,
+        controller_ ? std::optional(controller_->model()) : std::nullopt};
     controller_ = std::make_unique<controller::Controller>(
         ControllerNow(), robot_, scenario_.gravity_mps2, scenario_.physics.step_s, start);
     if (recorder_) recorder_->RecordStart(time_s(), start);

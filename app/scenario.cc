@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/scenario.h"
 
+#include <algorithm>
+
 namespace scoria::app {
 
 std::string Scenario::Problem() const {
@@ -9,7 +11,10 @@ std::string Scenario::Problem() const {
       return "controller_changes: at_s must not fall from one to the next";
   }
   try {
-    (void)ChangedControllers(*this);
+    for (const controller::ControllerParams& changed : ChangedControllers(*this)) {
+      if (changed.rates != controller.rates)
+        return "controller_changes: rates cannot change while walking";
+    }
   } catch (const core::ConfigError& e) {
     return std::string("controller_changes: ") + e.what();
   }
@@ -24,6 +29,13 @@ std::vector<controller::ControllerParams> ChangedControllers(const Scenario& sce
     changed.push_back(core::ReadConfig<controller::ControllerParams>(node));
   }
   return changed;
+}
+
+bool NeedsTruthEver(const Scenario& scenario) {
+  const std::vector<controller::ControllerParams> changed = ChangedControllers(scenario);
+  return controller::NeedsTruth(scenario.controller) ||
+         std::any_of(changed.begin(), changed.end(),
+                     [](const auto& params) { return controller::NeedsTruth(params); });
 }
 
 Scenario LoadScenario(const std::filesystem::path& file,

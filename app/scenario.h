@@ -131,6 +131,9 @@ struct Scenario {
 [[nodiscard]] std::vector<controller::ControllerParams> ChangedControllers(
     const Scenario& scenario);
 
+/// @returns true if the controller needs the truth now or after a change.
+[[nodiscard]] bool NeedsTruthEver(const Scenario& scenario);
+
 /// Reads and checks a scenario file with command-line overrides "key.sub=value".
 /// Errors: core::ConfigError.
 [[nodiscard]] Scenario LoadScenario(const std::filesystem::path& file,

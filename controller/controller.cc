@@ -53,7 +53,11 @@ Controller::Controller(const ControllerParams& params, const core::RobotDescript
       mpc_(std::make_unique<MpcRunner>(params.mpc, robot, gravity_mps2)),
       wbc_(MakeWholeBodyController(params.wbc, robot)),
       fallback_(MakeWholeBodyController(InverseDynamicsParams{}, robot)),
-      guard_(params.safety, robot) {}
+      guard_(params.safety, robot) {
+  if (!start.model) return;
+  model_.SetParameters(*start.model);
+  adapter_->Continue(*start.model);
+}
 
 const ControlOutput& Controller::Step(const SensorFrame& z, const Command& command,
                                       const SolverFaults& faults) noexcept {
@@ -89,9 +93,9 @@ void Controller::Reconfigure(const ControllerParams& params) {
   const ControllerParams before = std::exchange(params_, params);
   const double gravity_mps2 = model_.gravity_mps2();
   ContactParams other_choice = before.contact;
-  other_choice.type = params.contact.type;
+  other_choice.source = params.contact.source;
   if (Same(params.contact, other_choice)) {
-    contact_->SetChoice(params.contact.type);
+    contact_->SetChoice(params.contact.source);
   } else {
     contact_.emplace(params.contact, robot_, gravity_mps2, clock_.step_s());
   }
@@ -99,9 +103,9 @@ void Controller::Reconfigure(const ControllerParams& params) {
     estimator_ = MakeStateEstimator(params.estimator, robot_, gravity_mps2, {});
     estimator_->Continue(out_.estimate);
   }
-  if (!Same(params.adaptation, before.adaptation)) {
-    adapter_ =
-        MakeModelAdapter(params.adaptation, robot_, gravity_mps2, params.contact.observer);
+  if (!Same(params.adaptation, before.adaptation) ||
+      !Same(params.contact.observer, before.contact.observer)) {
+    adapter_ = MakeModelAdapter(params.adaptation, robot_, gravity_mps2, params.contact.observer);
     adapter_->Continue(model_.parameters());
   }
   if (!Same(params.gait, before.gait)) {

@@ -32,6 +32,7 @@ struct RateParams {
     a.Field("wbc_Hz", wbc_Hz, {.min = 50.0, .max = 1000.0, .doc = "whole-body control and swing"});
     a.Field("mpc_Hz", mpc_Hz, {.min = 10.0, .max = 500.0, .doc = "gait, reference and MPC"});
   }
+  bool operator==(const RateParams&) const = default;
 };
 
 struct ControllerParams {
@@ -105,6 +106,7 @@ struct Start {
   Pose pose = Pose::kStanding;
   Placement placement;
   std::int64_t step = 0;  // index of the physics step; ticks fall on multiples of the global step
+  std::optional<core::ModelParameters> model;  // known from before; else the nominal one
 };
 
 /// The hierarchy: estimation every physics step, gait, reference, footholds and MPC at mpc_Hz,
@@ -127,6 +129,8 @@ class Controller {
 
   /// Everything that did not go to plan, since the start.
   [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
+  /// What gait, MPC and body control act on.
+  [[nodiscard]] const core::ModelParameters& model() const noexcept { return model_.parameters(); }
   [[nodiscard]] const ConvexMpc& mpc() const noexcept { return mpc_->mpc(); }
   [[nodiscard]] const WholeBodyController& wbc() const noexcept { return *wbc_; }
 

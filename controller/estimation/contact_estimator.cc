@@ -14,7 +14,7 @@ LegArray<T> OnePerLeg(const T& value) noexcept {
 }  // namespace
 
 bool NeedsTruth(const ContactParams& params) noexcept {
-  return params.type == ContactChoice::kTruth;
+  return params.source == ContactChoice::kTruth;
 }
 
 ContactEstimator::ContactEstimator(const ContactParams& params, const core::RobotDescription& robot,
@@ -69,7 +69,7 @@ void ContactEstimator::UpdateTruth(const SensorFrame& z) noexcept {
 }
 
 ContactSource ContactEstimator::Choose(Leg leg) const noexcept {
-  switch (params_.type) {
+  switch (params_.source) {
     case ContactChoice::kTruth:
       return ContactSource::kTruth;
     case ContactChoice::kGaitPhase:

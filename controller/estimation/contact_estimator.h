@@ -30,7 +30,7 @@ constexpr std::array<std::pair<ContactChoice, std::string_view>, 5> EnumNames(Co
 }
 
 struct ContactParams {
-  ContactChoice type = ContactChoice::kHierarchy;
+  ContactChoice source = ContactChoice::kHierarchy;
   double touchdown_delay_s = 0.0;
   ObserverParams observer;
   FusionParams fusion;
@@ -39,7 +39,7 @@ struct ContactParams {
   template <class Archive>
   void Serialize(Archive& a) {
     a.Field(
-        "type", type,
+        "source", source,
         {.doc = "whose word counts. hierarchy: the foot sensor while healthy, else the momentum "
                 "observer; sensor: that, healthy or not, or the observer on a robot without"});
     a.Field("touchdown_delay_s", touchdown_delay_s,
@@ -77,7 +77,7 @@ class ContactEstimator {
   [[nodiscard]] ContactEstimate Update(const ContactInput& in) noexcept;
 
   /// Changes whose word counts, at run time; nothing that was learned is lost.
-  void SetChoice(ContactChoice type) noexcept { params_.type = type; }
+  void SetChoice(ContactChoice source) noexcept { params_.source = source; }
 
  private:
   void UpdateObserver(const ContactInput& in) noexcept;

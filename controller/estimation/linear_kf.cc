@@ -34,7 +34,7 @@ StateEstimate LinearKf::Update(const EstimatorInput& in, Counters&) noexcept {
     Correct(in);
   }
   StateEstimate out;
-  out.ready = rest_.IsReady();
+  out.ready = !in.at_rest || rest_.IsReady();
   out.state.R_WB = R_WB_;
   out.state.p_WB = x_.row(kPosition).transpose();
   out.state.v_WB = x_.row(kVelocity).transpose();

@@ -24,10 +24,6 @@ bool Take(const LegArray<Vec3>& from, LegArray<Vec3>& to) noexcept {
 
 /// Zero unless there is a newer sample.
 double SampleGuard::TimeSinceLast(const SensorFrame& z, Counters& counters) noexcept {
-  if (!std::isfinite(z.imu_time_s)) {
-    counters.Add(Count::kImuInvalid);
-    return 0.0;
-  }
   if (!has_stamp_) {
     has_stamp_ = true;
     stamp_s_ = z.imu_time_s;
@@ -55,14 +51,15 @@ const CheckedFrame& SampleGuard::Check(const SensorFrame& z, Counters& counters)
   SensorFrame& good = checked_.z;
   good.step = z.step;
   good.truth = z.truth;
-  checked_.imu_dt_s = TimeSinceLast(z, counters);
-  good.imu_time_s = stamp_s_;
-  if (z.a_WS_S.allFinite() && z.w_WS_S.allFinite()) {
+  checked_.imu_dt_s = 0.0;
+  if (std::isfinite(z.imu_time_s) && z.a_WS_S.allFinite() && z.w_WS_S.allFinite()) {
+    checked_.imu_dt_s = TimeSinceLast(z, counters);
     good.a_WS_S = z.a_WS_S;
     good.w_WS_S = z.w_WS_S;
   } else {
-    counters.Add(Count::kImuInvalid);
+    counters.Add(Count::kImuInvalid);  // the next good sample covers its time
   }
+  good.imu_time_s = stamp_s_;
   checked_.imu_saturated = good.a_WS_S.cwiseAbs().maxCoeff() > params_.accel_limit_mps2 ||
                            good.w_WS_S.cwiseAbs().maxCoeff() > params_.gyro_limit_radps;
   if (checked_.imu_saturated) counters.Add(Count::kImuSaturated);

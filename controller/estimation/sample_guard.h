@@ -22,7 +22,7 @@ struct SampleGuardParams {
 
 /// A sensor frame that the estimators may believe, and what was wrong with the one that came.
 struct CheckedFrame {
-  SensorFrame z;          // what was not finite is replaced by its last good value
+  SensorFrame z;          // what was not finite keeps its last good value
   double imu_dt_s = 0.0;  // since the last IMU sample; 0: there is no new one
   bool imu_saturated = false;
 };

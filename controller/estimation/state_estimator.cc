@@ -13,7 +13,10 @@ class TruthEstimator final : public StateEstimator {
     if (in.z.truth) last_.state = in.z.truth->state;
     return last_;
   }
-  void Continue(const StateEstimate& from) noexcept override { last_ = from; }
+  void Continue(const StateEstimate& from) noexcept override {
+    last_ = {};
+    last_.state = from.state;
+  }
 
  private:
   StateEstimate last_;

@@ -38,13 +38,13 @@ struct Placement {
                                  const Mat3& R_WB, const LegArray<Vec3>& q) noexcept;
 
 struct EstimatorInput {
-  const SensorFrame& z;  // checked: finite
-  double imu_dt_s;       // that the IMU sample covers; 0: there is no new one
-  bool imu_saturated;
+  const SensorFrame& z;   // checked: finite
+  double imu_dt_s = 0.0;  // that the IMU sample covers; 0: there is no new one
+  bool imu_saturated = false;
   const ContactEstimate& contact;
   const core::WholeBody& wb;  // at the last tick
-  Vec3 n_W;                   // of the ground
-  bool at_rest;               // the robot stands or lies still and waits for its attitude
+  Vec3 n_W = Vec3::UnitZ();   // of the ground
+  bool at_rest = false;       // the robot stands or lies still and waits for its attitude
 };
 
 /// One call per physics step.

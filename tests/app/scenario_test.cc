@@ -98,5 +98,35 @@ TEST(Docs, EveryCitationHasItsReference) {
   EXPECT_GT(cited, 8);
 }
 
+TEST(ControllerChanges, AreCheckedWhenTheScenarioIsRead) {
+  const auto error = [](const std::string& changes) -> std::string {
+    try {
+      (void)test::LoadScenario("flat", {"controller_changes=" + changes});
+    } catch (const core::ConfigError& e) {
+      return e.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(error("[{at_s: 1, set: [gait.type=sgs]}]"), "");
+  EXPECT_NE(
+      error("[{at_s: 1, set: [gait.type=trott]}]").find("choices: ags, bio, sgs, sgs_matched"),
+      std::string::npos);
+  EXPECT_NE(error("[{at_s: 1, set: [rates.mpc_Hz=50]}]").find("rates cannot change while walking"),
+            std::string::npos);
+  EXPECT_NE(error("[{at_s: 2, set: [mpc.horizon=20]}, {at_s: 1, set: [mpc.horizon=10]}]")
+                .find("at_s must not fall from one to the next"),
+            std::string::npos);
+}
+
+// A change of one choice leaves the section's other keys as they were tuned.
+TEST(ControllerChanges, KeepWhatTheyDoNotName) {
+  const Scenario scenario =
+      test::LoadScenario("flat", {"controller.contact.fusion.force_sigma=0.03",
+                                  "controller_changes=[{at_s: 1, set: [contact.source=sensor]}]"});
+  const controller::ControllerParams changed = ChangedControllers(scenario).front();
+  EXPECT_EQ(changed.contact.source, controller::ContactChoice::kSensor);
+  EXPECT_EQ(changed.contact.fusion.force_sigma, 0.03);
+}
+
 }  // namespace
 }  // namespace scoria::app

@@ -83,7 +83,7 @@ TEST(Controller, SeesTheSensorsAlone) {
   params.estimator = TruthEstimatorParams{};
   EXPECT_TRUE(NeedsTruth(params));
   params.estimator = InekfEstimatorParams{};
-  params.contact.type = ContactChoice::kTruth;
+  params.contact.source = ContactChoice::kTruth;
   EXPECT_TRUE(NeedsTruth(params));
 }
 

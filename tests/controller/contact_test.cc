@@ -616,7 +616,7 @@ class Trot {
 
 ContactParams Choosing(ContactChoice type) {
   ContactParams params;
-  params.type = type;
+  params.source = type;
   return params;
 }
 
@@ -784,11 +784,11 @@ TEST(ContactEstimator, OnlyTruthNeedsTruth) {
 
 TEST(ContactParams, AreWrittenAndReadBack) {
   ContactParams params;
-  params.type = ContactChoice::kMomentumObserver;
+  params.source = ContactChoice::kMomentumObserver;
   params.observer.cutoff_Hz = 55.0;
   params.health.recover_transitions = 9;
   const auto again = core::ReadConfig<ContactParams>(core::WriteConfig(params));
-  EXPECT_EQ(again.type, params.type);
+  EXPECT_EQ(again.source, params.source);
   EXPECT_EQ(again.observer.cutoff_Hz, params.observer.cutoff_Hz);
   EXPECT_EQ(again.health.recover_transitions, params.health.recover_transitions);
 }
