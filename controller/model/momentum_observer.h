@@ -19,7 +19,7 @@ struct ObserverParams {
   bool viscous_friction = true;
   bool coulomb_friction = true;
   double coulomb_smooth_radps = 0.2;
-  double singular_below_m = 0.03;
+  double singular_below_m = 0.1;
   template <class Archive>
   void Serialize(Archive& a) {
     a.Field("cutoff_Hz", cutoff_Hz,
