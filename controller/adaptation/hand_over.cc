@@ -29,8 +29,8 @@ Vec3 HandOver::Clamp(const Vec3& dpi) const noexcept {
 
 Vec3 HandOver::Continue(const core::ModelParameters& in_use) noexcept {
   const core::Body& trunk = robot_.trunk;
-  const Vec2 excess = in_use.trunk_mass_kg * in_use.p_BC_trunk.head<2>() -
-                      trunk.mass_kg * trunk.p_LC.head<2>();
+  const Vec2 excess =
+      in_use.trunk_mass_kg * in_use.p_BC_trunk.head<2>() - trunk.mass_kg * trunk.p_LC.head<2>();
   handed_ = goal_ = {in_use.trunk_mass_kg - trunk.mass_kg, excess.x(), excess.y()};
   return handed_;
 }
