@@ -103,6 +103,8 @@ core::LogRow MakeRow(const StepRecord& r) {
     targets[leg] = c.feet[leg].p_WF;
   }
   row.foot_target_m = Flatten(targets);
+  row.stage_quality = c.qualities;
+  row.fallen_back = c.fallen_back;
   row.operating = c.operating;
   row.fallen = r.fallen;
   row.segment = r.segment;

@@ -108,6 +108,7 @@ class Episode {
     result_.times += control.times;
     CountInjected(faults, control);
     AnnounceSensors(control.contact);
+    AnnounceTransitions(control.transitions);
     Record(z, command, control);
     if (sinks_.on_control) sinks_.on_control(*controller_, control);
     lap.Book(core::Stage::kRecord);
@@ -131,6 +132,16 @@ class Episode {
 
   /// Drawn at every step, so that a controller that runs slower meets the same faults.
   [[nodiscard]] controller::SolverFaults DrawSolverFaults() {
+    controller::SolverFaults faults = DrawRandomFaults();
+    for (const SolverOutage& outage : scenario_.solver_faults.outages) {
+      const double since_s = walking_s_ - outage.at_s;
+      if (since_s <= 0.0 || since_s > outage.duration_s) continue;
+      (outage.solver == Solver::kMpc ? faults.mpc : faults.wbc) = outage.kind;
+    }
+    return faults;
+  }
+
+  [[nodiscard]] controller::SolverFaults DrawRandomFaults() {
     if (scenario_.solver_faults.share == 0.0) return {};
     using controller::SolverFault;
     constexpr std::array<SolverFault, 3> kKinds = {SolverFault::kFail, SolverFault::kNan,
@@ -167,6 +178,20 @@ class Episode {
       if (control_in_charge() && now != contact_source_[leg])
         Announce("contact_source", fmt::format("{}: {}", LegName(leg), core::EnumName(now)));
       contact_source_[leg] = now;
+    }
+  }
+
+  /// Stages that the controller gives up or takes back by itself.
+  void AnnounceTransitions(const controller::Transitions& transitions) {
+    for (std::size_t i = 0; i < transitions.count; ++i) {
+      const controller::Transition& t = transitions.list[i];
+      const std::string_view watch = core::EnumName(t.watch);
+      Announce("supervisor",
+               t.fell_back
+                   ? fmt::format("{}: falls back on {} (quality {:.2f} below {:.2f}, {:.2f} s)",
+                                 watch, controller::FallbackName(t.watch), t.quality,
+                                 t.least_quality, t.lasted_s)
+                   : fmt::format("{}: comes back (sound for {:.2f} s)", watch, t.lasted_s));
     }
   }
 
@@ -287,18 +312,18 @@ class Episode {
     chord_start_.reset();
   }
 
-  /// As in the field: the robot is set on its feet where it fell, a little further if it has just
-  /// fallen there.
+  /// As in the field: the robot is set on its feet where it fell. If it has not come away from its
+  /// last place it is carried a little further, and twice as far each time that this repeats.
   void PutOnFeet() {
-    constexpr double kSamePlace_m = 0.3, kFurther_m = 0.25;
+    constexpr double kSamePlace_m = 1.0, kFurther_m = 0.25, kFurthest_m = 2.0;
     CloseChord();
     Vec2 place = world_.truth().state.p_WB.head<2>();
     const double heading = operator_.route().empty()
                                ? core::RpyFromRotation(world_.truth().state.R_WB).z()
                                : operator_.HeadingAt(place);
-    if (last_place_ && (*last_place_ - place).norm() < kSamePlace_m) {
-      place += kFurther_m * Vec2(std::cos(heading), std::sin(heading));
-    }
+    const bool same = last_place_ && (*last_place_ - place).norm() < kSamePlace_m;
+    further_m_ = same ? std::clamp(2.0 * further_m_, kFurther_m, kFurthest_m) : 0.0;
+    place += further_m_ * Vec2(std::cos(heading), std::sin(heading));
     last_place_ = place;
     const double margin_m = 1.0, edge_m = ground_.half_size_m() - margin_m;
     place = place.cwiseMax(-edge_m).cwiseMin(edge_m);
@@ -373,6 +398,7 @@ class Episode {
   std::int64_t step_ = 0;
   std::uint32_t segment_ = 0;
   double operating_s_ = 0.0, walking_s_ = 0.0, lying_s_ = 0.0, chord_s_ = 0.0;
+  double further_m_ = 0.0;  // than where it fell, the robot was put last
   bool fallen_ = false;
   struct ActivePush {
     double until_s;

@@ -66,9 +66,29 @@ struct ControllerChange {
   }
 };
 
+enum class Solver { kMpc, kBody };
+constexpr std::array<std::pair<Solver, std::string_view>, 2> EnumNames(Solver) {
+  return {{{Solver::kMpc, "mpc"}, {Solver::kBody, "body"}}};
+}
+
+/// A solver that gives no answer in time for a while.
+struct SolverOutage {
+  double at_s = 0.0, duration_s = 1.0;
+  Solver solver = Solver::kMpc;
+  controller::SolverFault kind = controller::SolverFault::kFail;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Required("at_s", at_s, {.min = 0.0, .doc = "since the robot stands"});
+    a.Required("duration_s", duration_s, {.min = 0.0, .max = 1e6});
+    a.Required("solver", solver, {.doc = "mpc, or body: the whole-body controller"});
+    a.Field("kind", kind, {.doc = "of every answer meanwhile"});
+  }
+};
+
 /// Faults of the controller's solvers, to see what its fallbacks are worth.
 struct SolverFaultParams {
   double share = 0.0;
+  std::vector<SolverOutage> outages;
   template <class Archive>
   void Serialize(Archive& a) {
     a.Field("share", share,
@@ -76,6 +96,7 @@ struct SolverFaultParams {
              .max = 1.0,
              .doc = "of MPC and WBC ticks, at random, at which the solver fails, returns NaN or is "
                     "late, a third each"});
+    a.Field("outages", outages);
   }
 };
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/math/so3.h"
 #include "core/stopwatch.h"
 
 namespace scoria::controller {
@@ -13,6 +14,11 @@ namespace {
 
 int EverySteps(double rate_Hz, double step_s) {
   return std::max(1, static_cast<int>(std::lround(1.0 / (rate_Hz * step_s))));
+}
+
+/// The counters of the watches are in their order.
+Count CountOf(Watch watch) noexcept {
+  return static_cast<Count>(static_cast<int>(Count::kFallbackMpc) + static_cast<int>(watch));
 }
 
 template <class Params>
@@ -53,7 +59,9 @@ Controller::Controller(const ControllerParams& params, const core::RobotDescript
       mpc_(std::make_unique<MpcRunner>(params.mpc, robot, gravity_mps2)),
       wbc_(MakeWholeBodyController(params.wbc, robot)),
       fallback_(MakeWholeBodyController(InverseDynamicsParams{}, robot)),
-      guard_(params.safety, robot) {
+      guard_(params.safety, robot, StandingPose(robot, robot.config.nominal_height_m)),
+      quality_(params.quality),
+      supervisor_(params.supervisor) {
   if (!start.model) return;
   model_.SetParameters(*start.model);
   adapter_->Continue(*start.model);
@@ -66,6 +74,7 @@ const ControlOutput& Controller::Step(const SensorFrame& z, const Command& comma
   Feel(z);
   lap.Book(core::Stage::kEstimation);
   out_.mpc_updated = out_.wbc_updated = false;
+  out_.transitions.count = 0;
   if (!operating_) {
     const double since_s = static_cast<double>(clock_.step() - first_step_) * clock_.step_s();
     out_.command = stand_up_.Update(out_.estimate.state.q, since_s);
@@ -81,7 +90,10 @@ const ControlOutput& Controller::Step(const SensorFrame& z, const Command& comma
       TakePlan(faults.mpc);
       lap.Book(core::Stage::kMpc);
     }
-    if (body_due) StepBody(faults.wbc);
+    if (body_due) {
+      StepBody(faults.wbc);
+      Supervise();
+    }
     lap.Book(core::Stage::kBody);
   }
   out_.operating = operating_;
@@ -101,7 +113,7 @@ void Controller::Reconfigure(const ControllerParams& params) {
   }
   if (!Same(params.estimator, before.estimator)) {
     estimator_ = MakeStateEstimator(params.estimator, robot_, gravity_mps2, {});
-    estimator_->Continue(out_.estimate);
+    estimator_->Continue(out_.estimate, 1.0);
   }
   if (!Same(params.adaptation, before.adaptation) ||
       !Same(params.contact.observer, before.contact.observer)) {
@@ -124,6 +136,8 @@ void Controller::Reconfigure(const ControllerParams& params) {
   leg_states_.set_params(params.legs);
   swing_.set_params(params.swing);
   guard_.set_params(params.safety);
+  quality_.set_params(params.quality);
+  supervisor_.set_params(params.supervisor);
 }
 
 /// Checks what the sensors say, then contacts, state, mass and the model at that state.
@@ -148,7 +162,8 @@ void Controller::Feel(const SensorFrame& raw) noexcept {
   out_.model_mass_kg = wb_.mass_kg;
 }
 
-void Controller::StepPlans(const Command& command) noexcept {
+void Controller::StepPlans(const Command& asked) noexcept {
+  const Command command = supervisor_.Temper(asked, robot_.config.nominal_height_m);
   const double dt_s = mpc_every_ * clock_.step_s();
   reference_planner_.ObserveFeet(wb_, out_.contact.contact, foot_radius_m_);
   reference_ =
@@ -163,6 +178,7 @@ void Controller::StepPlans(const Command& command) noexcept {
     gait.early_contact[leg] = out_.legs.mode[leg] == LegMode::kEarlyContact;
     gait.foot_error_m[leg] = foothold_planner_.DistanceFromNeutral(wb_, leg);
   }
+  gait.least_duty = supervisor_.care() * params_.supervisor.careful_duty;
   gait.dt_s = dt_s;
   gait.horizon = params_.mpc.horizon;
   gait.stage_s = params_.mpc.stage_s;
@@ -204,11 +220,13 @@ void Controller::StepBody(SolverFault fault) noexcept {
   const double contacts_age_s = static_cast<double>(clock_.step() - contacts_step_) * step_s;
   out_.legs = leg_states_.Update(out_.contacts, out_.contact.contact, contacts_age_s,
                                  wbc_every_ * step_s, counters_);
-  out_.feet = swing_.Plan(wb_, out_.legs, footholds_);
+  out_.feet = swing_.Plan(wb_, out_.legs, footholds_,
+                          supervisor_.care() * params_.supervisor.careful_lift_m);
 
   double plan_age_s = static_cast<double>(clock_.step() - active_.step) * step_s;
   ForcePlan plan = active_.plan;
-  if (!plan.valid || plan_age_s > params_.safety.max_plan_age_s) {
+  if (!plan.valid || plan_age_s > params_.safety.max_plan_age_s ||
+      supervisor_.HasFallenBack(Watch::kMpc)) {
     counters_.Add(Count::kPlanExpired);
     plan = StandInPlan(wb_.mass_kg * model_.gravity_mps2(), out_.legs.Contacts(), reference_,
                        params_.mpc.stage_s);
@@ -227,7 +245,8 @@ void Controller::StepBody(SolverFault fault) noexcept {
 }
 
 /// The body controller's answer; where there is none, the last command for a while, then inverse
-/// dynamics. What even that cannot answer, the guard damps.
+/// dynamics, which also stands in while the supervisor has given the body controller up. What even
+/// that cannot answer, the guard damps.
 WbcResult Controller::SolveBody(const WbcInput& in, SolverFault fault) noexcept {
   WbcResult result = wbc_->Solve(in);
   if (fault == SolverFault::kFail) result.status = SolveStatus::kNumerical;
@@ -236,18 +255,72 @@ WbcResult Controller::SolveBody(const WbcInput& in, SolverFault fault) noexcept 
   if (result.torque_rows_dropped) counters_.Add(Count::kTorqueRowsDropped);
   if (result.singular_leg) counters_.Add(Count::kSingularLeg);
   const bool failed = !IsUsable(result.status) || !IsFinite(result.command);
-  if (!failed && fault != SolverFault::kLate) {
+  const bool given_up = supervisor_.HasFallenBack(Watch::kBody);
+  body_answered_ = !failed && fault != SolverFault::kLate;
+  if (body_answered_ && !given_up) {
     command_step_ = clock_.step();
     return result;
   }
-  counters_.Add(failed ? Count::kWbcFailure : Count::kWbcLate);
+  if (!body_answered_) counters_.Add(failed ? Count::kWbcFailure : Count::kWbcLate);
   const double age_s = static_cast<double>(clock_.step() - command_step_) * clock_.step_s();
-  if (!failed && age_s <= params_.safety.max_command_age_s) {
+  if (!failed && !given_up && age_s <= params_.safety.max_command_age_s) {
     result.command = out_.command;
     return result;
   }
   counters_.Add(Count::kInverseDynamics);
   return fallback_->Solve(in);
+}
+
+StageReports Controller::Report() const noexcept {
+  StageReports reports{.legs = out_.legs, .contact = out_.contact.contact, .foot_lag_m = {}};
+  const double plan_age_s = static_cast<double>(clock_.step() - active_.step) * clock_.step_s();
+  reports.plan_age_share =
+      active_.plan.valid ? plan_age_s / std::max(params_.safety.max_plan_age_s, plan_age_s) : 1.0;
+  reports.body_answered = body_answered_;
+  const LegArray<Vec3> effort_Nm = robot_.EffortLimits();
+  for (const Leg leg : kLegs) {
+    constexpr double kSpent = 0.98;  // of a motor's limit
+    const Vec3& tau_Nm = out_.command.tau_Nm[leg];
+    if ((tau_Nm.cwiseAbs().array() > kSpent * effort_Nm[leg].array()).any())
+      reports.torque_spent = true;
+  }
+  for (const Leg leg : kLegs)
+    reports.foot_lag_m[leg] = (out_.feet[leg].p_WF - wb_.p_WF[leg]).norm();
+  const RobotState& s = out_.estimate.state;
+  reports.estimate_finite = s.R_WB.allFinite() && s.p_WB.allFinite() && s.v_WB.allFinite();
+  reports.v_W = s.v_WB;
+  reports.a_W = s.R_WB * robot_.R_BS * samples_.last().a_WS_S - model_.gravity_mps2() * Vec3::UnitZ();
+  reports.nis = out_.estimate.nis;
+  reports.nis_dof = out_.estimate.nis_dof;
+  if (params_.contact.source == ContactChoice::kSensor && robot_.config.has_foot_sensors) {
+    const auto& healthy = out_.contact.sensor_healthy;
+    reports.sound_feet_share =
+        static_cast<double>(std::count(healthy.begin(), healthy.end(), true)) / kNumLegs;
+  }
+  const Vec3 z_W = core::RotationFromRpy(out_.reference.rpy_rad).col(2);
+  reports.tilt_error_rad = std::acos(std::clamp(z_W.dot(s.R_WB.col(2)), -1.0, 1.0));
+  reports.slips = counters_[Count::kSlip];
+  return reports;
+}
+
+void Controller::Supervise() noexcept {
+  supervisor_.Update(quality_.Update(Report(), wbc_every_ * clock_.step_s()),
+                     wbc_every_ * clock_.step_s());
+  out_.qualities = quality_.qualities();
+  out_.transitions = supervisor_.transitions();
+  for (std::size_t i = 0; i < out_.transitions.count; ++i) Act(out_.transitions.list[i]);
+  for (std::size_t i = 0; i < kNumWatches; ++i)
+    out_.fallen_back[i] = supervisor_.HasFallenBack(static_cast<Watch>(i));
+}
+
+/// What is done once when a stage is given up or taken back; the rest follows from the supervisor's
+/// state.
+void Controller::Act(const Transition& transition) noexcept {
+  if (transition.fell_back) counters_.Add(CountOf(transition.watch));
+  if (transition.watch == Watch::kEstimator && transition.fell_back)
+    estimator_->Continue(out_.estimate, params_.supervisor.doubt);
+  if (transition.watch == Watch::kContact)
+    contact_->SetChoice(transition.fell_back ? ContactChoice::kHierarchy : params_.contact.source);
 }
 
 }  // namespace scoria::controller

@@ -14,6 +14,8 @@
 #include "controller/reference/reference_planner.h"
 #include "controller/safety/leg_state_machine.h"
 #include "controller/safety/output_guard.h"
+#include "controller/safety/stage_quality.h"
+#include "controller/safety/supervisor.h"
 #include "controller/stand_up.h"
 #include "controller/swing/foothold_planner.h"
 #include "controller/swing/swing_trajectory.h"
@@ -49,6 +51,8 @@ struct ControllerParams {
   MpcParams mpc;
   WbcParams wbc = TsidParams{};
   SafetyParams safety;
+  QualityParams quality;
+  SupervisorParams supervisor;
   StandUpParams stand_up;
   template <class Archive>
   void Serialize(Archive& a) {
@@ -65,6 +69,8 @@ struct ControllerParams {
     a.Field("mpc", mpc);
     a.Field("wbc", wbc);
     a.Field("safety", safety);
+    a.Field("quality", quality);
+    a.Field("supervisor", supervisor);
     a.Field("stand_up", stand_up);
   }
 };
@@ -88,11 +94,17 @@ struct ControlOutput {
   SolveStatus mpc_status = SolveStatus::kOptimal, wbc_status = SolveStatus::kOptimal;
   int mpc_iterations = 0, wbc_iterations = 0;
   double mpc_solve_s = 0.0, wbc_solve_s = 0.0;  // wall clock
-  core::StageTimes times;                       // of this step
+  Qualities qualities{};                        // of the stages, by their own word
+  Transitions transitions;                      // of this step
+  std::array<bool, kNumWatches> fallen_back{};
+  core::StageTimes times;  // of this step
 };
 
 /// A fault to be played on a solver's next answer: it fails, claims success with NaN, or is late.
 enum class SolverFault { kNone, kFail, kNan, kLate };
+constexpr std::array<std::pair<SolverFault, std::string_view>, 3> EnumNames(SolverFault) {
+  return {{{SolverFault::kFail, "fail"}, {SolverFault::kNan, "nan"}, {SolverFault::kLate, "late"}}};
+}
 struct SolverFaults {
   SolverFault mpc = SolverFault::kNone, wbc = SolverFault::kNone;
 };
@@ -140,6 +152,9 @@ class Controller {
   void TakePlan(SolverFault fault) noexcept;
   void StepBody(SolverFault fault) noexcept;
   [[nodiscard]] WbcResult SolveBody(const WbcInput& in, SolverFault fault) noexcept;
+  void Supervise() noexcept;
+  [[nodiscard]] StageReports Report() const noexcept;
+  void Act(const Transition& transition) noexcept;
 
   ControllerParams params_;
   const core::RobotDescription& robot_;
@@ -162,6 +177,8 @@ class Controller {
   std::unique_ptr<MpcRunner> mpc_;
   std::unique_ptr<WholeBodyController> wbc_, fallback_;
   OutputGuard guard_;
+  StageQuality quality_;
+  Supervisor supervisor_;
 
   core::WholeBody wb_;
   BodyReference reference_;
@@ -172,6 +189,7 @@ class Controller {
   };
   DatedPlan active_, late_;  // in force; came too late for the last tick
   std::int64_t mpc_since_ = 0, contacts_step_ = 0, command_step_ = 0;
+  bool body_answered_ = true, torque_spent_ = false;
   Counters counters_;
   ControlOutput out_;
 };

@@ -81,7 +81,7 @@ void InekfEstimator::Start(const SensorFrame& z) noexcept {
   filter_.Set(x, CalcStartCovariance(params_, x.R_WS, gravity_mps2_));
 }
 
-void InekfEstimator::Continue(const StateEstimate& from) noexcept {
+void InekfEstimator::Continue(const StateEstimate& from, double doubt) noexcept {
   constexpr double kVelocity_mps = 0.05;
   using I = InekfIndex;
   const RobotState& s = from.state;
@@ -90,8 +90,13 @@ void InekfEstimator::Continue(const StateEstimate& from) noexcept {
   const Vec3 p_BS_W = s.R_WB * robot_.p_BS;
   x.p_WS = s.p_WB + p_BS_W;
   x.v_WS = s.v_WB + s.w_WB.cross(p_BS_W);
-  InekfCovariance P = CalcStartCovariance(params_, x.R_WS, gravity_mps2_);
-  P.block<3, 3>(I::kVelocity, I::kVelocity) = Isotropic(kVelocity_mps);
+  x.gyro_bias_S = filter_.state().gyro_bias_S;
+  InekfEstimatorParams unsure = params_;
+  unsure.start_tilt_rad *= doubt;
+  unsure.start_gyro_bias_radps *= doubt;
+  unsure.start_accel_bias_mps2 *= doubt;
+  InekfCovariance P = CalcStartCovariance(unsure, x.R_WS, gravity_mps2_);
+  P.block<3, 3>(I::kVelocity, I::kVelocity) = Isotropic(doubt * kVelocity_mps);
   filter_.Set(x, P);
   started_ = true;
 }

@@ -59,7 +59,7 @@ void LinearKf::Start(const RobotState& state) noexcept {
   }
 }
 
-void LinearKf::Continue(const StateEstimate& from) noexcept { Start(from.state); }
+void LinearKf::Continue(const StateEstimate& from, double) noexcept { Start(from.state); }
 
 /// Source: [Mahony2008], passive complementary filter with bias, gravity only.
 void LinearKf::Turn(const EstimatorInput& in) noexcept {

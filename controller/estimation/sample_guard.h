@@ -35,6 +35,9 @@ class SampleGuard {
 
   [[nodiscard]] const CheckedFrame& Check(const SensorFrame& z, Counters& counters) noexcept;
 
+  /// The last frame checked.
+  [[nodiscard]] const SensorFrame& last() const noexcept { return checked_.z; }
+
   void set_params(const SampleGuardParams& params) noexcept { params_ = params; }
 
  private:

@@ -13,7 +13,7 @@ class TruthEstimator final : public StateEstimator {
     if (in.z.truth) last_.state = in.z.truth->state;
     return last_;
   }
-  void Continue(const StateEstimate& from) noexcept override {
+  void Continue(const StateEstimate& from, double) noexcept override {
     last_ = {};
     last_.state = from.state;
   }

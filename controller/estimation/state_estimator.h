@@ -53,8 +53,9 @@ class StateEstimator {
   virtual ~StateEstimator() = default;
   [[nodiscard]] virtual StateEstimate Update(const EstimatorInput& in,
                                              Counters& counters) noexcept = 0;
-  /// Goes on from another estimator's state, and trusts it a little less.
-  virtual void Continue(const StateEstimate& from) noexcept = 0;
+  /// Goes on from a state: another estimator's, or its own that does not fit any more.
+  /// @param doubt  how many times less sure of it than at the start.
+  virtual void Continue(const StateEstimate& from, double doubt) noexcept = 0;
 };
 
 /// The simulator's own state, for controller studies without estimation error.

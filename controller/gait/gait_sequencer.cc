@@ -48,13 +48,21 @@ class WalkSwitch {
   bool walking_ = false;
 };
 
+/// Longer stances between swings of the same duration.
+GaitTiming WithLeastDuty(GaitTiming timing, double least_duty) noexcept {
+  if (timing.duty >= least_duty) return timing;
+  timing.period_s *= (1.0 - timing.duty) / (1.0 - least_duty);
+  timing.duty = least_duty;
+  return timing;
+}
+
 /// What all gaits share: the clock of the phases, standing, and single steps while standing.
 class PhasedGait : public GaitSequencer {
  public:
   explicit PhasedGait(const StandParams& stand) noexcept : stand_(stand), walk_(stand) {}
 
   ContactPlan Plan(const GaitInput& in) noexcept final {
-    GaitTiming timing = Timing(in);
+    GaitTiming timing = WithLeastDuty(Timing(in), in.least_duty);
     if (in.command.pattern != GaitPattern::kOwn) timing.offset = OffsetsOf(in.command.pattern);
     const bool walking = timing.duty < 1.0 && walk_.Update(in.command, in.v_xy_mps);
     if (!walking) timing = StandingTiming(in, timing);

@@ -22,6 +22,7 @@ struct GaitInput {
   double height_m = 0.0;          // COM over the ground plane through the feet
   LegArray<bool> early_contact;   // swing feet that touched the ground before their time
   LegArray<double> foot_error_m;  // how far each foot is from its place under a standing body
+  double least_duty = 0.0;        // when care is needed; the swing time stays
   double dt_s = 0.01;             // since the last tick
   int horizon = 10;
   double stage_s = 0.05;

@@ -43,22 +43,41 @@ ForcePlan StandInPlan(double weight_N, const LegArray<bool>& contact,
   return plan;
 }
 
+OutputGuard::OutputGuard(const SafetyParams& params, const core::RobotDescription& robot,
+                         const LegArray<Vec3>& standing_rad)
+    : robot_(robot), effort_Nm_(robot.EffortLimits()), standing_rad_(standing_rad) {
+  set_params(params);
+}
+
+void OutputGuard::set_params(const SafetyParams& params) noexcept {
+  params_ = params;
+  for (const Leg leg : kLegs) {
+    low_rad_[leg] = standing_rad_[leg] - params.working_range_rad;
+    high_rad_[leg] = standing_rad_[leg] + params.working_range_rad;
+    for (int j = 0; j < kJointsPerLeg; ++j) {
+      const core::JointDescription& joint = robot_.legs[leg].joints[static_cast<std::size_t>(j)];
+      double& low = low_rad_[leg][j];
+      double& high = high_rad_[leg][j];
+      low = std::max(low, joint.lower_rad + params.joint_margin_rad);
+      high = std::min(high, joint.upper_rad - params.joint_margin_rad);
+    }
+  }
+}
+
 JointCommand OutputGuard::Damping() const noexcept {
   JointCommand command;
   for (const Leg leg : kLegs) command.kd_Nms_per_rad[leg].setConstant(params_.damping_Nms_per_rad);
   return command;
 }
 
-/// Joints within the margin of a limit that the command would push further out get a spring and
+/// Joints beyond their range that the command would push further out get a spring and
 /// damper towards the inside instead. @returns how many.
 int OutputGuard::TurnBackAtLimits(const RobotState& state, JointCommand& command) const noexcept {
   int turned = 0;
   for (const Leg leg : kLegs) {
     for (int j = 0; j < kJointsPerLeg; ++j) {
-      const core::JointDescription& joint = robot_.legs[leg].joints[static_cast<std::size_t>(j)];
       const double q = state.q[leg][j], qd = state.qd[leg][j];
-      const double low = joint.lower_rad + params_.joint_margin_rad,
-                   high = joint.upper_rad - params_.joint_margin_rad;
+      const double low = low_rad_[leg][j], high = high_rad_[leg][j];
       if (q >= low && q <= high) continue;
       const double tau = command.tau_Nm[leg][j] +
                          command.kp_Nm_per_rad[leg][j] * (command.q[leg][j] - q) +

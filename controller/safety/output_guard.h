@@ -15,6 +15,7 @@ struct SafetyParams {
   double tilt_stop_rad = 1.2;
   double damping_Nms_per_rad = 3.0;
   double joint_margin_rad = 0.0;
+  Vec3 working_range_rad{0.9, 1.5, 0.95};
   double joint_limit_Nm_per_rad = 200.0, joint_limit_Nms_per_rad = 2.0;
   template <class Archive>
   void Serialize(Archive& a) {
@@ -31,6 +32,12 @@ struct SafetyParams {
     a.Field("damping_Nms_per_rad", damping_Nms_per_rad, {.min = 0.0, .max = 100.0});
     a.Field("joint_margin_rad", joint_margin_rad,
             {.min = 0.0, .max = 0.5, .doc = "before a joint's limit, where it is turned back"});
+    a.Field(
+        "working_range_rad", working_range_rad,
+        {.min = 0.1,
+         .max = 10.0,
+         .doc = "HAA, HFE, KFE: joints are also turned back so far from the standing pose, lest a "
+                "leg folds through to where it cannot walk"});
     a.Field("joint_limit_Nm_per_rad", joint_limit_Nm_per_rad, {.min = 0.0, .max = 1e4});
     a.Field("joint_limit_Nms_per_rad", joint_limit_Nms_per_rad, {.min = 0.0, .max = 100.0});
   }
@@ -40,22 +47,23 @@ struct SafetyParams {
 /// becomes damping; torques stay within the motors', joints within their limits.
 class OutputGuard {
  public:
-  /// `robot` is borrowed.
-  OutputGuard(const SafetyParams& params, const core::RobotDescription& robot)
-      : params_(params), robot_(robot), effort_Nm_(robot.EffortLimits()) {}
+  /// @param robot borrowed. @param standing_rad its standing pose.
+  OutputGuard(const SafetyParams& params, const core::RobotDescription& robot,
+              const LegArray<Vec3>& standing_rad);
 
   [[nodiscard]] JointCommand Check(const JointCommand& command, const RobotState& state,
                                    Counters& counters) noexcept;
   [[nodiscard]] JointCommand Damping() const noexcept;
 
-  void set_params(const SafetyParams& params) noexcept { params_ = params; }
+  void set_params(const SafetyParams& params) noexcept;
 
  private:
   [[nodiscard]] int TurnBackAtLimits(const RobotState& state, JointCommand& command) const noexcept;
 
   SafetyParams params_;
   const core::RobotDescription& robot_;
-  LegArray<Vec3> effort_Nm_;
+  LegArray<Vec3> effort_Nm_, standing_rad_;
+  LegArray<Vec3> low_rad_ = ZeroPerLeg(), high_rad_ = ZeroPerLeg();
   bool stopped_ = false;
 };
 

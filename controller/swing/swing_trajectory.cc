@@ -72,7 +72,7 @@ FootTarget SwingTrajectory::Wait(const core::WholeBody& wb, const LegPhases& leg
 }
 
 FootTargets SwingTrajectory::Plan(const core::WholeBody& wb, const LegPhases& legs,
-                                  const FootholdPlan& footholds) noexcept {
+                                  const FootholdPlan& footholds, double lift_m) noexcept {
   FootTargets targets;
   for (const Leg leg : kLegs) {
     Arc& arc = arcs_[leg];
@@ -88,6 +88,7 @@ FootTargets SwingTrajectory::Plan(const core::WholeBody& wb, const LegPhases& le
       const bool late = arc.mode == LegMode::kSwing || arc.mode == LegMode::kStumble;
       const Vec3 lowered_from = late ? arc.to_W : wb.p_WF[leg];
       arc = StartArc(wb, legs, leg, swings ? footholds.next[leg] : lowered_from);
+      arc.lift_m += lift_m;
     }
     if (!swings) {
       targets[leg] = Wait(wb, legs, leg, arc);

@@ -36,8 +36,9 @@ class SwingTrajectory {
   SwingTrajectory(const SwingParams& params, const core::RobotDescription& robot) noexcept
       : params_(params), robot_(robot) {}
 
+  /// @param lift_m  added to the apex of swings that begin.
   [[nodiscard]] FootTargets Plan(const core::WholeBody& wb, const LegPhases& legs,
-                                 const FootholdPlan& footholds) noexcept;
+                                 const FootholdPlan& footholds, double lift_m = 0.0) noexcept;
 
   void set_params(const SwingParams& params) noexcept { params_ = params; }
 

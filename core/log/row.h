@@ -59,6 +59,11 @@ struct LogRow {
   std::array<double, 3> learned_p_BC_m{};
   bool learned_tared = false;
 
+  // What the stages say of themselves, 1 as designed to 0 of no use, and which of them the
+  // supervisor has given up: MPC, body controller, estimator, contact, footing, load.
+  std::array<double, 6> stage_quality{};
+  std::array<bool, 6> fallen_back{};
+
   bool operating = false;     // the walking controller is in charge
   bool fallen = false;        // from the fall until the robot is set on its feet and walks again
   std::uint32_t segment = 0;  // counts placements: rows of different segments are not one path
@@ -124,6 +129,8 @@ struct LogRow {
     a("learned_sigma_kg", learned_sigma_kg);
     a("learned_p_BC_m", learned_p_BC_m);
     a("learned_tared", learned_tared);
+    a("stage_quality", stage_quality);
+    a("fallen_back", fallen_back);
     a("operating", operating);
     a("fallen", fallen);
     a("segment", segment);

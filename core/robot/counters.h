@@ -33,8 +33,14 @@ enum class Count {
   kJointInvalid,       // ticks with a joint reading that is not finite
   kSlip,               // standing feet that the estimator saw slip
   kEstimateRefused,    // corrections of the estimate that were not usable
+  kFallbackMpc,        // times that the supervisor gave the stage up, in the order of Watch
+  kFallbackBody,
+  kFallbackEstimator,
+  kFallbackContact,
+  kFallbackFooting,
+  kFallbackLoad,
 };
-constexpr std::array<std::pair<Count, std::string_view>, 23> EnumNames(Count) {
+constexpr std::array<std::pair<Count, std::string_view>, 29> EnumNames(Count) {
   return {{{Count::kEarlyContact, "early_contact"},
            {Count::kLateContact, "late_contact"},
            {Count::kLostContact, "lost_contact"},
@@ -57,7 +63,13 @@ constexpr std::array<std::pair<Count, std::string_view>, 23> EnumNames(Count) {
            {Count::kImuSaturated, "imu_saturated"},
            {Count::kJointInvalid, "joint_invalid"},
            {Count::kSlip, "slip"},
-           {Count::kEstimateRefused, "estimate_refused"}}};
+           {Count::kEstimateRefused, "estimate_refused"},
+           {Count::kFallbackMpc, "fallback_mpc"},
+           {Count::kFallbackBody, "fallback_body"},
+           {Count::kFallbackEstimator, "fallback_estimator"},
+           {Count::kFallbackContact, "fallback_contact"},
+           {Count::kFallbackFooting, "fallback_footing"},
+           {Count::kFallbackLoad, "fallback_load"}}};
 }
 
 class Counters {

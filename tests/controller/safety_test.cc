@@ -16,7 +16,7 @@ JointCommand Torques(double tau_Nm) {
 }
 
 TEST(OutputGuard, LeavesAnOrdinaryCommandAloneAndClampsTorques) {
-  OutputGuard guard({}, test::Go2());
+  OutputGuard guard({}, test::Go2(), test::StandingState().q);
   Counters counters;
   const RobotState state = test::StandingState();
   EXPECT_EQ(guard.Check(Torques(5.0), state, counters), Torques(5.0));
@@ -26,7 +26,7 @@ TEST(OutputGuard, LeavesAnOrdinaryCommandAloneAndClampsTorques) {
 }
 
 TEST(OutputGuard, NothingThatIsNotFiniteReachesAMotor) {
-  OutputGuard guard({}, test::Go2());
+  OutputGuard guard({}, test::Go2(), test::StandingState().q);
   Counters counters;
   for (int field = 0; field < 5; ++field) {
     JointCommand command = Torques(1.0);
@@ -39,7 +39,7 @@ TEST(OutputGuard, NothingThatIsNotFiniteReachesAMotor) {
 }
 
 TEST(OutputGuard, StopsForGoodWhenTheTrunkTips) {
-  OutputGuard guard({}, test::Go2());
+  OutputGuard guard({}, test::Go2(), test::StandingState().q);
   Counters counters;
   RobotState state = test::StandingState();
   state.R_WB = Eigen::AngleAxisd(1.19, Vec3::UnitX()).toRotationMatrix();
@@ -52,7 +52,7 @@ TEST(OutputGuard, StopsForGoodWhenTheTrunkTips) {
 }
 
 TEST(OutputGuard, TurnsAJointBackAtItsLimitButLetsItComeIn) {
-  OutputGuard guard({}, test::Go2());
+  OutputGuard guard({}, test::Go2(), test::StandingState().q);
   Counters counters;
   RobotState state = test::StandingState();
   const double upper = test::Go2().legs[Leg::kFL].joints[1].upper_rad;

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "controller/safety/stage_quality.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace scoria::controller {
+namespace {
+
+template <class T>
+void LowPass(T& y, const T& u, double window_s, double dt_s) noexcept {
+  y += (window_s > dt_s ? dt_s / window_s : 1.0) * (u - y);
+}
+
+bool Swings(const LegPhases& legs, Leg leg) noexcept {
+  return legs.mode[leg] == LegMode::kSwing || legs.mode[leg] == LegMode::kStumble;
+}
+
+}  // namespace
+
+/// Whether the estimate fits the innovations, and itself: a speed that changes otherwise than the
+/// accelerometer says tells a wrong attitude or bias, whatever the covariance admits.
+double StageQuality::CalcEstimator(const StageReports& in, double dt_s) noexcept {
+  if (!in.estimate_finite || !in.a_W.allFinite()) return 0.0;
+  if (in.nis_dof > 0) LowPass(nis_ratio_, in.nis / in.nis_dof, params_.nis_window_s, dt_s);
+  if (!started_) mean_v_W_ = in.v_W;
+  started_ = true;
+  const double window_s = params_.acceleration_window_s;
+  LowPass(mean_v_W_, in.v_W, window_s, dt_s);
+  LowPass(mean_a_W_, in.a_W, window_s, dt_s);
+  const Vec3 by_speed = (in.v_W - mean_v_W_) / window_s;  // low pass of its derivative
+  const double by_acceleration = 1.0 - (by_speed - mean_a_W_).norm() / params_.acceleration_mps2;
+  return std::clamp(by_acceleration, 0.0, 1.0 / std::max(1.0, nis_ratio_));
+}
+
+double StageQuality::CalcFooting(const StageReports& in, double dt_s) noexcept {
+  double mishaps = static_cast<double>(in.slips - slips_);
+  slips_ = in.slips;
+  for (const Leg leg : kLegs) {
+    const bool swings = Swings(in.legs, leg);
+    const bool held_up = swings && in.contact[leg] && in.foot_lag_m[leg] > params_.stumble_m;
+    if (held_up && !stumbled_[leg]) mishaps += 1.0;
+    stumbled_[leg] = swings && (stumbled_[leg] || held_up);
+  }
+  mishaps_ += mishaps;
+  LowPass(mishaps_, 0.0, params_.footing_window_s, dt_s);
+  const double by_mishaps = 1.0 - mishaps_ / params_.mishaps;
+  const double by_tilt = 1.0 - in.tilt_error_rad / params_.tilt_rad;
+  return std::max(0.0, std::min(by_mishaps, by_tilt));
+}
+
+const Qualities& StageQuality::Update(const StageReports& in, double dt_s) noexcept {
+  LowPass(answered_, in.body_answered ? 1.0 : 0.0, params_.body_window_s, dt_s);
+  LowPass(spare_, in.torque_spent ? 0.0 : 1.0, params_.load_window_s, dt_s);
+  const auto set = [&](Watch watch, double quality) {
+    qualities_[static_cast<std::size_t>(watch)] = quality;
+  };
+  set(Watch::kMpc, std::max(0.0, 1.0 - in.plan_age_share));
+  set(Watch::kBody, answered_);
+  set(Watch::kEstimator, CalcEstimator(in, dt_s));
+  set(Watch::kContact, in.sound_feet_share);
+  set(Watch::kFooting, CalcFooting(in, dt_s));
+  set(Watch::kLoad, spare_);
+  return qualities_;
+}
+
+}  // namespace scoria::controller
