@@ -10,7 +10,7 @@ namespace scoria::controller {
 /// From what is learned to what gait, MPC and WBC are told.
 struct HandOverParams {
   double max_sigma_kg = 0.3, max_sigma_kgm = 0.03;
-  double rate_kgps = 2.5, rate_kgmps = 0.25;
+  double rate_kgps = 10.0, rate_kgmps = 1.0;
   double payload_height_m = 0.1;
   double min_trunk_share = 0.3, max_payload_kg = 15.0;
   template <class Archive>

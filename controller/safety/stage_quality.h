@@ -16,7 +16,7 @@ struct QualityParams {
   double load_window_s = 0.5;
   double footing_window_s = 2.0;
   double mishaps = 6.0, stumble_m = 0.04;
-  double tilt_rad = 0.4;
+  double tilt_rad = 0.25;
   template <class Archive>
   void Serialize(Archive& a) {
     a.Field("body_window_s", body_window_s, {.min = 0.0, .max = 10.0, .doc = "low pass"});

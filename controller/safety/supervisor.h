@@ -50,12 +50,12 @@ struct SupervisorParams {
   bool enabled = true;
   WatchParams mpc{.least_quality = 0.01, .after_s = 0.0, .recover_s = 0.05};
   WatchParams body{.least_quality = 0.1, .after_s = 0.02, .recover_s = 0.2};
-  WatchParams estimator{.least_quality = 0.3, .after_s = 0.1, .recover_s = 2.0};
+  WatchParams estimator{.least_quality = 0.8, .after_s = 0.05, .recover_s = 2.0};
   WatchParams contact{.least_quality = 0.99, .after_s = 0.05, .recover_s = 3.0};
   WatchParams footing{.least_quality = 0.3, .after_s = 0.1, .recover_s = 4.0};
   WatchParams load{.least_quality = 0.7, .after_s = 1.0, .recover_s = 5.0};
   double careful_speed_share = 0.6, careful_duty = 0.75, careful_lift_m = 0.02;
-  double crouch_share = 0.7;
+  double crouch_share = 0.9;
   double doubt = 15.0;
   double ramp_s = 1.0;
   template <class Archive>
