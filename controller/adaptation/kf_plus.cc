@@ -41,8 +41,7 @@ bool StepDetector::Update(const Vec3& error, double dt_s) noexcept {
 AdaptationKfPlus::AdaptationKfPlus(const KfPlusParams& params, const core::RobotDescription& robot,
                                    double gravity_mps2, const ObserverParams& observer) noexcept
     : params_(params),
-      balance_({gravity_mps2, params.hand_over.payload_height_m, params.gyro_cutoff_Hz,
-                params.presliding_rad, observer},
+      balance_({gravity_mps2, params.hand_over.payload_height_m, params.presliding_rad, observer},
                robot),
       tare_(params.tare),
       detector_(params.step),
