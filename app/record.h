@@ -50,7 +50,11 @@ class Recorder {
 
  private:
   template <class Message>
-  void Write(const Topic& topic, double time_s, Message& message);
+  void Write(const Topic& topic, double time_s, Message message);
+  void RecordSensors(const StepRecord& record);
+  void RecordBody(const StepRecord& record);
+  void RecordPlans(const StepRecord& record);
+  void RecordSlow(const StepRecord& record);
 
   MessageSink& sink_;
   std::uint8_t gait_sequencer_;
