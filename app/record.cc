@@ -146,13 +146,15 @@ msg::WBCTarget MakeWbcTarget(const StepRecord& r) {
   return m;
 }
 
-msg::GaitState MakeGaitState(const ContactPlan& plan) {
+msg::GaitState MakeGaitState(const StepRecord& r) {
+  const ContactPlan& plan = r.control.contacts;
   msg::GaitState m;
   m.period = plan.period_s;
   m.duty_factor = ToArray(plan.duty);
   m.phase_offset = ToArray(plan.offset);
   m.contact = ToArray(plan.stance);
   m.phase = ToArray(plan.phase);
+  m.gait_sequencer = std::holds_alternative<controller::AgsParams>(r.gait) ? 1 : 0;
   return m;
 }
 
@@ -217,8 +219,6 @@ const std::vector<Topic>& RecordedTopics() {
 
 Recorder::Recorder(MessageSink& sink, const Scenario& scenario)
     : sink_(sink),
-      gait_sequencer_(std::holds_alternative<controller::AgsParams>(scenario.controller.gait) ? 1
-                                                                                              : 0),
       slow_every_(
           std::max(1, static_cast<int>(std::lround(kHeartbeat_s / scenario.physics.step_s)))) {}
 
@@ -265,9 +265,7 @@ void Recorder::RecordBody(const StepRecord& r) {
 /// At the rate of gait and MPC.
 void Recorder::RecordPlans(const StepRecord& r) {
   const std::vector<Topic>& topics = RecordedTopics();
-  msg::GaitState gait = MakeGaitState(r.control.contacts);
-  gait.gait_sequencer = gait_sequencer_;
-  Write(topics[kGaitState], r.time_s, gait);
+  Write(topics[kGaitState], r.time_s, MakeGaitState(r));
   Write(topics[kControlTarget], r.time_s, MakeControlTarget(r));
   Write(topics[kSolveTime], r.time_s, MakeMpcDiagnostics(r));
   msg::BatteryState battery;

@@ -57,7 +57,6 @@ class Recorder {
   void RecordSlow(const StepRecord& record);
 
   MessageSink& sink_;
-  std::uint8_t gait_sequencer_;
   int slow_every_;  // steps between messages of the slow topics
   core::Bytes buffer_;
 };

@@ -217,6 +217,7 @@ class Episode {
                               z,
                               command,
                               control,
+                              ControllerNow().gait,
                               counters_so_far(),
                               actuation_.energy(),
                               actuation_.battery(),
