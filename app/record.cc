@@ -88,6 +88,8 @@ msg::QuadState MakeQuadState(const StepRecord& r) {
   m.pose.pose.orientation = ToMessage(e.state.R_WB);
   m.twist.twist.linear = ToMessage(e.state.v_WB);
   m.twist.twist.angular = ToMessage(e.state.w_WB);
+  m.acceleration.linear = ToMessage(r.control.contact.vd_WB);
+  m.acceleration.angular = ToMessage(r.control.contact.wd_WB);
   m.joint_state = MakeJointState(r);
   m.foot_contact = ToArray(r.control.contact.contact);
   m.ground_contact_force = Flatten(r.control.contact.f_F_W);

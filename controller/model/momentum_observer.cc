@@ -74,12 +74,12 @@ void MomentumObserver::UpdateLeg(Leg leg, const Sample& then, const Vec3& tau_Nm
 
 const LegArray<Vec3>& MomentumObserver::Update(const ObserverInput& in) noexcept {
   if (!in.z.a_WS_S.allFinite() || !in.z.w_WS_S.allFinite()) return f_F_W_;
-  const Vec6 a_B = CalcTrunkAcceleration(in);
+  a_B_ = CalcTrunkAcceleration(in);
   Sample& now = samples_.Next();
   for (const Leg leg : kLegs) {
     const Vec3& qd = in.z.qd[leg];
     const Vec3 qdd = started_ ? Vec3((qd - qd_[leg]) / in.dt_s) : Vec3(Vec3::Zero());
-    now.t_prompt[leg] = in.wb.H_Bl[leg].transpose() * a_B + in.wb.h_l[leg];
+    now.t_prompt[leg] = in.wb.H_Bl[leg].transpose() * a_B_ + in.wb.h_l[leg];
     now.t_speed[leg] = in.wb.H_ll[leg] * qdd + CalcFriction(qd);
     now.J[leg] = in.wb.J_ll[leg];
     qd_[leg] = qd;

@@ -84,6 +84,8 @@ class MomentumObserver {
   /// A leg whose readings or model are not finite keeps its force; all do without the IMU.
   /// @returns N, ground on foot, in W.
   const LegArray<Vec3>& Update(const ObserverInput& in) noexcept;
+  /// [v̇_WB; ẇ_WB] of the last call, in W and without gravity.
+  [[nodiscard]] const Vec6& a_B() const noexcept { return a_B_; }
 
  private:
   /// What stands against the motor torque, and the Jacobian at that time.
@@ -100,7 +102,8 @@ class MomentumObserver {
   const core::RobotDescription& robot_;
   Vec3 g_W_;
   DelayLine<Sample> samples_;
-  Vec3 w_WS_S_ = Vec3::Zero();        // filtered
+  Vec3 w_WS_S_ = Vec3::Zero();  // filtered
+  Vec6 a_B_ = Vec6::Zero();
   LegArray<Vec3> qd_ = ZeroPerLeg();  // of the last call
   LegArray<LowPassChain<3>> t_f_;     // J_llᵀ f_F
   LegArray<Vec3> f_F_W_ = ZeroPerLeg();

@@ -41,8 +41,10 @@ struct JointCmd {
   }
 };
 
-/// Twist in world axes; ground_contact_force in W (the reference's estimator writes body axes, its
-/// simulator world).
+/// Twist and acceleration in world axes; ground_contact_force in W (the reference's estimator
+/// writes body axes, its simulator world). We fill the acceleration from the IMU, without gravity
+/// and with the accelerometer's bias; the accelerations of the joints stay 0, and belly_contact
+/// false: nothing estimates them.
 struct QuadState {
   static constexpr const char* kTypeName = "interfaces/msg/QuadState";
   Header header;

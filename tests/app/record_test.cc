@@ -56,5 +56,29 @@ TEST(Recorder, GaitSequencerIsThatOfTheControllerInForce) {
   EXPECT_GT(simple, 50);
 }
 
+// From standing to walking, with every sample on record and an attitude without error: a tenth of a
+// degree of it would be 0.07 m/s in four seconds.
+TEST(Recorder, AccelerationAddsUpToTheChangeOfTheVelocity) {
+  const auto states = Record<core::msg::QuadState>(test::LoadScenario(
+      "flat", {"duration_s=4", "start=standing", "sensors.type=ideal",
+               "controller.rates.wbc_Hz=1000", "controller.estimator.type=truth"}));
+  ASSERT_GT(states.size(), 1000u);
+  core::msg::Vector3 sum_mps;
+  for (std::size_t i = 1; i < states.size(); ++i) {
+    const core::msg::Vector3& a_mps2 = states[i].message.acceleration.linear;
+    const double dt_s = states[i].time_s - states[i - 1].time_s;
+    sum_mps.x += dt_s * a_mps2.x;
+    sum_mps.y += dt_s * a_mps2.y;
+    sum_mps.z += dt_s * a_mps2.z;
+  }
+  const core::msg::Vector3& first = states.front().message.twist.twist.linear;
+  const core::msg::Vector3& last = states.back().message.twist.twist.linear;
+  EXPECT_GT(last.x - first.x, 0.2);
+  constexpr double kRounding_mps = 1e-3;  // the state and the sample are of neighbouring steps
+  EXPECT_NEAR(sum_mps.x, last.x - first.x, kRounding_mps);
+  EXPECT_NEAR(sum_mps.y, last.y - first.y, kRounding_mps);
+  EXPECT_NEAR(sum_mps.z, last.z - first.z, kRounding_mps);
+}
+
 }  // namespace
 }  // namespace scoria::app

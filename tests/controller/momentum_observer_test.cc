@@ -38,19 +38,25 @@ void Advance(Motion& m) {
   }
 }
 
-/// The forces that the observer reads after `ticks` of the motion.
-LegArray<Vec3> Observe(const ObserverParams& params, Motion m, int ticks) {
+struct Observed {
+  LegArray<Vec3> f_F_W = ZeroPerLeg();
+  Vec6 a_B = Vec6::Zero();
+};
+
+/// What the observer reads after `ticks` of the motion.
+Observed Observe(const ObserverParams& params, Motion m, int ticks) {
   const core::RobotDescription& robot = test::Go2();
   const core::WholeBodyModel model(robot, kGravity_mps2);
   MomentumObserver observer(params, robot, kGravity_mps2);
   core::WholeBody wb;
-  LegArray<Vec3> f = ZeroPerLeg();
+  Observed out;
   for (int i = 0; i < ticks; ++i) {
     model.Calc(m.state, wb);
-    f = observer.Update({wb, Sense(robot, wb, m), kStep_s});
+    out.f_F_W = observer.Update({wb, Sense(robot, wb, m), kStep_s});
     Advance(m);
   }
-  return f;
+  out.a_B = observer.a_B();
+  return out;
 }
 
 ObserverParams Prompt() {
@@ -69,14 +75,14 @@ TEST(MomentumObserver, LegHangingUnderATiltedTrunkReadsNoForce) {
   Motion m;
   m.state = test::StandingState();
   m.state.R_WB = core::RotationFromRpy({0.4, -0.5, 1.0});
-  EXPECT_LT(LargestError_N(Observe(Prompt(), m, 50), m.f_F_W), 1e-9);
+  EXPECT_LT(LargestError_N(Observe(Prompt(), m, 50).f_F_W, m.f_F_W), 1e-9);
 }
 
 TEST(MomentumObserver, FreeFallReadsNoForceWhereLegGravityAloneDoes) {
   Motion m;
   m.state = test::StandingState();
   m.vd_WB = Vec3(0.0, 0.0, -kGravity_mps2);
-  EXPECT_LT(LargestError_N(Observe(Prompt(), m, 50), m.f_F_W), 1e-9);
+  EXPECT_LT(LargestError_N(Observe(Prompt(), m, 50).f_F_W, m.f_F_W), 1e-9);
   const core::WholeBodyModel model(test::Go2(), kGravity_mps2);
   core::WholeBody wb;
   model.Calc(m.state, wb);
@@ -89,8 +95,11 @@ TEST(MomentumObserver, ShakenTrunkReadsNoForce) {
   m.state = test::StandingState();
   m.vd_WB = Vec3(5.0, -4.0, 6.0);
   m.wd_WB = Vec3(20.0, -15.0, 10.0);
+  const Observed out = Observe(Prompt(), m, 40);
   // The low passes lag the motion's change by a few milliseconds.
-  EXPECT_LT(LargestError_N(Observe(Prompt(), m, 40), m.f_F_W), 0.5);
+  EXPECT_LT(LargestError_N(out.f_F_W, m.f_F_W), 0.5);
+  EXPECT_LT((out.a_B.head<3>() - m.vd_WB).norm(), 0.02 * m.vd_WB.norm());
+  EXPECT_LT((out.a_B.tail<3>() - m.wd_WB).norm(), 0.02 * m.wd_WB.norm());
 }
 
 TEST(MomentumObserver, FindsForcesInAnyMotion) {
@@ -108,7 +117,7 @@ TEST(MomentumObserver, FindsForcesInAnyMotion) {
     ObserverParams params = Prompt();
     params.cutoff_Hz = 200.0;
     // Legs swing at 4 rad/s meanwhile, so that lag costs some of the force.
-    EXPECT_LT(LargestError_N(Observe(params, m, 20), m.f_F_W), 2.0) << trial;
+    EXPECT_LT(LargestError_N(Observe(params, m, 20).f_F_W, m.f_F_W), 2.0) << trial;
   }
 }
 
