@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include <fmt/format.h>
@@ -19,6 +20,11 @@
 namespace scoria::app {
 namespace {
 
+constexpr int kCalls = 20000, kAtOnce = 20;  // the clock is too coarse for one call
+constexpr double kPerCall_rad = 0.01;        // how fast the inputs of such calls change
+constexpr double kUsPerS = 1e6;
+constexpr int kMostRepeats = 1000;
+
 struct Options {
   std::string folder, scenario = "scenarios/rough.yaml";
   std::vector<std::string> set;
@@ -28,11 +34,12 @@ struct Options {
 
 /// Median and 99th percentile of times, in microseconds.
 nlohmann::json Spread(std::vector<double> us) {
+  constexpr double kMedian = 0.5, kP99 = 0.99;
   std::sort(us.begin(), us.end());
   const auto at = [&](double share) {
     return us[static_cast<std::size_t>(share * static_cast<double>(us.size() - 1))];
   };
-  return {{"median_us", at(0.5)}, {"p99_us", at(0.99)}, {"calls", us.size()}};
+  return {{"median_us", at(kMedian)}, {"p99_us", at(kP99)}, {"calls", us.size()}};
 }
 
 void Print(const std::string& name, const nlohmann::json& spread) {
@@ -80,7 +87,6 @@ void BenchQp(const Options& o) {
 
 /// Whole-body model at poses around standing, as the controller calls it.
 void BenchModel(const Options& o) {
-  constexpr int kCalls = 20000, kAtOnce = 20;  // the clock is too coarse for one call
   const Scenario scenario = LoadScenario(o.scenario, o.set);
   const core::RobotDescription robot = core::LoadRobot(scenario.robot);
   const core::WholeBodyModel model(robot, scenario.gravity_mps2);
@@ -92,11 +98,11 @@ void BenchModel(const Options& o) {
   for (int i = 0; i < kCalls; ++i) {
     const core::Stopwatch watch;
     for (int k = 0; k < kAtOnce; ++k) {
-      for (Vec3& qd : state.qd) qd.setConstant(std::sin(0.01 * (kAtOnce * i + k)));
+      for (Vec3& qd : state.qd) qd.setConstant(std::sin(kPerCall_rad * (kAtOnce * i + k)));
       model.Calc(state, wb);
       sink += wb.mass_kg;
     }
-    us.push_back(watch.seconds() * 1e6 / kAtOnce);
+    us.push_back(watch.seconds() * kUsPerS / kAtOnce);
   }
   nlohmann::json json = {{"model", Spread(us)}, {"mass_kg", sink / (kCalls * kAtOnce)}};
   if (o.json) {
@@ -108,17 +114,23 @@ void BenchModel(const Options& o) {
 
 /// The invariant filter of a robot that stands on four feet: one prediction and one correction.
 void BenchEstimator(const Options& o) {
-  constexpr int kCalls = 20000, kAtOnce = 20;
-  constexpr double kStep_s = 0.001, kFoot_m = 0.003;
-  const core::RobotDescription robot = core::LoadRobot(LoadScenario(o.scenario, o.set).robot);
+  constexpr double kFoot_m = 0.003, kTurning_radps = 0.1, kStart_sigma = 0.01;
+  const Scenario scenario = LoadScenario(o.scenario, o.set);
+  const core::RobotDescription robot = core::LoadRobot(scenario.robot);
+  const Mat3 I = Mat3::Identity();
   controller::InekfParams params;
-  params.noise = {1e-7 * Mat3::Identity(), 1e-5 * Mat3::Identity(), 1e-10 * Mat3::Identity(),
-                  1e-8 * Mat3::Identity(), 1e-4 * Mat3::Identity()};
+  params.noise = {.gyro = 1e-7 * I,
+                  .accel = 1e-5 * I,
+                  .gyro_bias = 1e-10 * I,
+                  .accel_bias = 1e-8 * I,
+                  .contact = 1e-4 * I};
+  const Vec3 at_rest_mps2(0.0, 0.0, scenario.gravity_mps2);
+  params.gravity_W = -at_rest_mps2;
   controller::Inekf filter(params);
-  filter.Set({}, 1e-4 * controller::InekfCovariance::Identity());
+  filter.Set({}, kStart_sigma * kStart_sigma * controller::InekfCovariance::Identity());
   LegArray<controller::FootMeasurement> feet;
   for (const Leg leg : kLegs) {
-    feet[leg] = {true, robot.NeutralFoothold(leg), kFoot_m * kFoot_m * Mat3::Identity()};
+    feet[leg] = {true, robot.NeutralFoothold(leg), kFoot_m * kFoot_m * I};
     feet[leg].p_SF_S.z() = -robot.config.nominal_height_m;
   }
   std::vector<double> us;
@@ -126,11 +138,13 @@ void BenchEstimator(const Options& o) {
   for (int i = 0; i < kCalls; ++i) {
     const core::Stopwatch watch;
     for (int k = 0; k < kAtOnce; ++k) {
-      const Vec3 w_S = Vec3::Constant(0.1 * std::sin(0.01 * (kAtOnce * i + k)));
-      if (filter.Predict({0.0, 0.0, 9.81}, w_S, kStep_s) == controller::InekfStatus::kOk)
+      const double angle_rad = kPerCall_rad * (kAtOnce * i + k);
+      const Vec3 w_S = Vec3::Constant(kTurning_radps * std::sin(angle_rad));
+      if (filter.Predict(at_rest_mps2, w_S, scenario.physics.step_s) ==
+          controller::InekfStatus::kOk)
         nis += filter.Correct(feet).nis;
     }
-    us.push_back(watch.seconds() * 1e6 / kAtOnce);
+    us.push_back(watch.seconds() * kUsPerS / kAtOnce);
   }
   const nlohmann::json json = {{"estimator", Spread(us)}, {"nis", nis}};
   if (o.json) {
@@ -143,6 +157,7 @@ void BenchEstimator(const Options& o) {
 /// Physics alone: the robot stands on the scenario's ground under joint control.
 void BenchPhysics(const Options& o) {
   constexpr int kSteps = 5000;
+  constexpr double kStiffness_Nm_per_rad = 100.0, kDamping_Nms_per_rad = 2.5;
   const Scenario scenario = LoadScenario(o.scenario, o.set);
   const core::RobotDescription robot = core::LoadRobot(scenario.robot);
   const terrains::Heightfield ground =
@@ -151,7 +166,7 @@ void BenchPhysics(const Options& o) {
   sim::Actuation actuation(robot);
   RobotState state;
   state.q = controller::StandingPose(robot, robot.config.nominal_height_m);
-  state.p_WB.z() = -1e9;
+  state.p_WB.z() = -std::numeric_limits<double>::infinity();
   for (const Leg leg : kLegs) {
     const Vec3 p_BF = core::CalcLegKinematics(robot.legs[leg], state.q[leg]).p_BF;
     const double ground_z = ground.HeightAt(p_BF.x(), p_BF.y());
@@ -160,14 +175,14 @@ void BenchPhysics(const Options& o) {
   world.Reset(state);
   JointCommand command;
   command.q = state.q;
-  command.kp_Nm_per_rad = LegArray<Vec3>(Vec3::Constant(100.0));
-  command.kd_Nms_per_rad = LegArray<Vec3>(Vec3::Constant(2.5));
+  command.kp_Nm_per_rad = LegArray<Vec3>(Vec3::Constant(kStiffness_Nm_per_rad));
+  command.kd_Nms_per_rad = LegArray<Vec3>(Vec3::Constant(kDamping_Nms_per_rad));
   std::vector<double> us;
   for (int i = 0; i < kSteps; ++i) {
     const core::Stopwatch watch;
     const RobotState& now = world.truth().state;
     world.Step(actuation.Update(command, now.q, now.qd, scenario.physics.step_s));
-    us.push_back(watch.seconds() * 1e6);
+    us.push_back(watch.seconds() * kUsPerS);
   }
   const nlohmann::json json = {{"physics", Spread(us)}};
   if (o.json) {
@@ -190,7 +205,7 @@ void BenchEpisode(const Options& o) {
                          {"walked_m", r.walked_m},
                          {"real_time_factor", r.duration_s / r.times.sum()}};
   for (const auto& [stage, name] : EnumNames(core::Stage{}))
-    json["us_per_step"][name] = r.times[stage] / steps * 1e6;
+    json["us_per_step"][name] = r.times[stage] / steps * kUsPerS;
   if (o.json) {
     fmt::print("{}\n", json.dump(2));
     return;
@@ -198,7 +213,7 @@ void BenchEpisode(const Options& o) {
   fmt::print("{}: {:.1f} times real time over {:.0f} s and {:.1f} m\n", scenario.name,
              r.duration_s / r.times.sum(), r.duration_s, r.walked_m);
   for (const auto& [stage, name] : EnumNames(core::Stage{}))
-    fmt::print("  {:26} {:6.2f} us per step {:5.1f} %\n", name, r.times[stage] / steps * 1e6,
+    fmt::print("  {:26} {:6.2f} us per step {:5.1f} %\n", name, r.times[stage] / steps * kUsPerS,
                100.0 * r.times[stage] / r.times.sum());
 }
 
@@ -224,7 +239,7 @@ void AddBench(CLI::App& app) {
   CLI::App* qp = AddPart(*bench, "qp", "solve and time the QP sets of a folder", o, BenchQp);
   qp->add_option("folder", o->folder, "folder of .bin sets")->required();
   qp->add_option("--repeats", o->repeats, "solves per problem, of which the median counts")
-      ->check(CLI::Range(1, 1000));
+      ->check(CLI::Range(1, kMostRepeats));
   AddScenario(AddPart(*bench, "model", "time the whole-body model", o, BenchModel), o);
   AddScenario(
       AddPart(*bench, "estimator", "time the invariant filter on four feet", o, BenchEstimator), o);

@@ -88,9 +88,32 @@ msg::QuadState MakeQuadState(const StepRecord& r) {
   m.pose.pose.orientation = ToMessage(e.state.R_WB);
   m.twist.twist.linear = ToMessage(e.state.v_WB);
   m.twist.twist.angular = ToMessage(e.state.w_WB);
+  m.acceleration.linear = ToMessage(r.control.contact.vd_WB);
+  m.acceleration.angular = ToMessage(r.control.contact.wd_WB);
   m.joint_state = MakeJointState(r);
   m.foot_contact = ToArray(r.control.contact.contact);
   m.ground_contact_force = Flatten(r.control.contact.f_F_W);
+  return m;
+}
+
+msg::Imu MakeImu(const StepRecord& r) {
+  msg::Imu m;
+  m.header = MakeHeader(r.time_s, "imu_frame");
+  m.orientation = ToMessage(r.control.estimate.state.R_WB);
+  m.angular_velocity = ToMessage(r.sensors.w_WS_S);
+  m.linear_acceleration = ToMessage(r.sensors.a_WS_S);
+  return m;
+}
+
+msg::JointCmd MakeJointCmd(const StepRecord& r) {
+  const JointCommand& command = r.control.command;
+  msg::JointCmd m;
+  m.header = MakeHeader(r.time_s, "");
+  m.position = Flatten(command.q);
+  m.velocity = Flatten(command.qd);
+  m.effort = Flatten(command.tau_Nm);
+  m.kp = Flatten(command.kp_Nm_per_rad);
+  m.kd = Flatten(command.kd_Nms_per_rad);
   return m;
 }
 
@@ -125,6 +148,51 @@ msg::WBCTarget MakeWbcTarget(const StepRecord& r) {
   return m;
 }
 
+msg::GaitState MakeGaitState(const StepRecord& r) {
+  const ContactPlan& plan = r.control.contacts;
+  msg::GaitState m;
+  m.period = plan.period_s;
+  m.duty_factor = ToArray(plan.duty);
+  m.phase_offset = ToArray(plan.offset);
+  m.contact = ToArray(plan.stance);
+  m.phase = ToArray(plan.phase);
+  m.gait_sequencer = std::holds_alternative<controller::AgsParams>(r.gait) ? 1 : 0;
+  return m;
+}
+
+msg::QuadControlTarget MakeControlTarget(const StepRecord& r) {
+  msg::QuadControlTarget m;
+  m.body_x_dot = r.command.v_x_mps;
+  m.body_y_dot = r.command.v_y_mps;
+  m.hybrid_theta_dot = r.command.w_z_radps;
+  m.world_z = r.control.reference.p_WC.z() - r.control.ground_z_m;
+  m.pitch = r.command.pitch_rad;
+  m.roll = r.command.roll_rad;
+  return m;
+}
+
+msg::MPCDiagnostics MakeMpcDiagnostics(const StepRecord& r) {
+  msg::MPCDiagnostics m;
+  m.header = MakeHeader(r.time_s, "");
+  m.solve_time = m.acados_total_time = r.control.mpc_solve_s;
+  m.acados_num_iter = r.control.mpc_iterations;
+  m.acados_return = static_cast<std::int64_t>(r.control.mpc_status);
+  return m;
+}
+
+msg::ControllerInfo MakeControllerInfo(const StepRecord& r) {
+  const auto count = [&](Count c) { return static_cast<std::uint32_t>(r.counters[c]); };
+  msg::ControllerInfo m;
+  m.header = MakeHeader(r.time_s, "");
+  m.num_early_contacts = count(Count::kEarlyContact);
+  m.num_mpc_solver_overtime = count(Count::kMpcLate);
+  m.num_wbc_overtime = count(Count::kWbcLate);
+  m.num_mpc_solver_fail = count(Count::kMpcFailure);
+  m.num_wbc_solver_fail = count(Count::kWbcFailure);
+  m.keep_pose_active = r.control.contacts.standing;
+  return m;
+}
+
 }  // namespace
 
 const std::vector<Topic>& RecordedTopics() {
@@ -153,106 +221,66 @@ const std::vector<Topic>& RecordedTopics() {
 
 Recorder::Recorder(MessageSink& sink, const Scenario& scenario)
     : sink_(sink),
-      gait_sequencer_(std::holds_alternative<controller::AgsParams>(scenario.controller.gait) ? 1
-                                                                                              : 0),
       slow_every_(
           std::max(1, static_cast<int>(std::lround(kHeartbeat_s / scenario.physics.step_s)))) {}
 
 template <class Message>
-void Recorder::Write(const Topic& topic, double time_s, Message& message) {
+void Recorder::Write(const Topic& topic, double time_s, Message message) {
   core::EncodeCdr(message, buffer_);
   sink_.Write(topic, ToNanoseconds(time_s), buffer_);
 }
 
 void Recorder::Record(const StepRecord& r, const core::LogRow& row) {
+  RecordSensors(r);
+  RecordBody(r);
+  if (r.control.mpc_updated) RecordPlans(r);
+  if (r.step % slow_every_ == 0) RecordSlow(r);
+  Write(RecordedTopics()[kRow], r.time_s, row);
+}
+
+void Recorder::RecordSensors(const StepRecord& r) {
   const std::vector<Topic>& topics = RecordedTopics();
-  const double t = r.time_s;
-
   msg::JointState joints = MakeJointState(r);
-  joints.header = MakeHeader(t, "");
-  Write(topics[kJointStates], t, joints);
-
-  msg::Imu imu;
-  imu.header = MakeHeader(t, "imu_frame");
-  imu.orientation = ToMessage(r.control.estimate.state.R_WB);
-  imu.angular_velocity = ToMessage(r.sensors.w_WS_S);
-  imu.linear_acceleration = ToMessage(r.sensors.a_WS_S);
-  Write(topics[kImu], t, imu);
-
+  joints.header = MakeHeader(r.time_s, "");
+  Write(topics[kJointStates], r.time_s, joints);
+  Write(topics[kImu], r.time_s, MakeImu(r));
   msg::ContactState contact;
-  contact.header = MakeHeader(t, "");
+  contact.header = MakeHeader(r.time_s, "");
   contact.ground_contact_force = ToArray(r.sensors.foot_force_raw);
-  Write(topics[kContactState], t, contact);
+  Write(topics[kContactState], r.time_s, contact);
+}
 
-  msg::JointCmd command;
-  command.header = MakeHeader(t, "");
-  command.position = Flatten(r.control.command.q);
-  command.velocity = Flatten(r.control.command.qd);
-  command.effort = Flatten(r.control.command.tau_Nm);
-  command.kp = Flatten(r.control.command.kp_Nm_per_rad);
-  command.kd = Flatten(r.control.command.kd_Nms_per_rad);
-  Write(topics[kJointCmd], t, command);
+/// Command and state, and what the body controller did if it has just run.
+void Recorder::RecordBody(const StepRecord& r) {
+  const std::vector<Topic>& topics = RecordedTopics();
+  Write(topics[kJointCmd], r.time_s, MakeJointCmd(r));
+  Write(topics[kQuadState], r.time_s, MakeQuadState(r));
+  if (!r.control.wbc_updated) return;
+  Write(topics[kWbcTarget], r.time_s, MakeWbcTarget(r));
+  msg::WBCReturn wbc;
+  wbc.header = MakeHeader(r.time_s, "");
+  wbc.success = controller::IsUsable(r.control.wbc_status);
+  wbc.total_time = wbc.qp_solve_time = r.control.wbc_solve_s;
+  Write(topics[kWbcSolveTime], r.time_s, wbc);
+}
 
-  msg::QuadState state = MakeQuadState(r);
-  Write(topics[kQuadState], t, state);
+/// At the rate of gait and MPC.
+void Recorder::RecordPlans(const StepRecord& r) {
+  const std::vector<Topic>& topics = RecordedTopics();
+  Write(topics[kGaitState], r.time_s, MakeGaitState(r));
+  Write(topics[kControlTarget], r.time_s, MakeControlTarget(r));
+  Write(topics[kSolveTime], r.time_s, MakeMpcDiagnostics(r));
+  msg::BatteryState battery;
+  battery.voltage = static_cast<float>(r.battery.voltage_V);
+  battery.current = static_cast<float>(r.battery.current_A);
+  Write(topics[kBattery], r.time_s, battery);
+}
 
-  if (r.control.wbc_updated) {
-    msg::WBCTarget target = MakeWbcTarget(r);
-    Write(topics[kWbcTarget], t, target);
-    msg::WBCReturn wbc;
-    wbc.header = MakeHeader(t, "");
-    wbc.success = controller::IsUsable(r.control.wbc_status);
-    wbc.total_time = wbc.qp_solve_time = r.control.wbc_solve_s;
-    Write(topics[kWbcSolveTime], t, wbc);
-  }
-  if (r.control.mpc_updated) {
-    msg::GaitState gait;
-    gait.period = r.control.contacts.period_s;
-    gait.duty_factor = ToArray(r.control.contacts.duty);
-    gait.phase_offset = ToArray(r.control.contacts.offset);
-    gait.contact = ToArray(r.control.contacts.stance);
-    gait.phase = ToArray(r.control.contacts.phase);
-    gait.gait_sequencer = gait_sequencer_;
-    Write(topics[kGaitState], t, gait);
-
-    msg::QuadControlTarget target;
-    target.body_x_dot = r.command.v_x_mps;
-    target.body_y_dot = r.command.v_y_mps;
-    target.hybrid_theta_dot = r.command.w_z_radps;
-    target.world_z = r.control.reference.p_WC.z() - r.control.ground_z_m;
-    target.pitch = r.command.pitch_rad;
-    target.roll = r.command.roll_rad;
-    Write(topics[kControlTarget], t, target);
-
-    msg::MPCDiagnostics mpc;
-    mpc.header = MakeHeader(t, "");
-    mpc.solve_time = mpc.acados_total_time = r.control.mpc_solve_s;
-    mpc.acados_num_iter = r.control.mpc_iterations;
-    mpc.acados_return = static_cast<std::int64_t>(r.control.mpc_status);
-    Write(topics[kSolveTime], t, mpc);
-
-    msg::BatteryState battery;
-    battery.voltage = static_cast<float>(r.battery.voltage_V);
-    battery.current = static_cast<float>(r.battery.current_A);
-    Write(topics[kBattery], t, battery);
-  }
-  if (r.step % slow_every_ == 0) {
-    msg::ControllerInfo info;
-    info.header = MakeHeader(t, "");
-    info.num_early_contacts = static_cast<std::uint32_t>(r.counters[Count::kEarlyContact]);
-    info.num_mpc_solver_overtime = static_cast<std::uint32_t>(r.counters[Count::kMpcLate]);
-    info.num_wbc_overtime = static_cast<std::uint32_t>(r.counters[Count::kWbcLate]);
-    info.num_mpc_solver_fail = static_cast<std::uint32_t>(r.counters[Count::kMpcFailure]);
-    info.num_wbc_solver_fail = static_cast<std::uint32_t>(r.counters[Count::kWbcFailure]);
-    info.keep_pose_active = r.control.contacts.standing;
-    Write(topics[kHeartbeat], t, info);
-    if (r.control.adaptation.mass_kg > 0.0) {
-      msg::QuadModel model = MakeQuadModel(r);
-      Write(topics[kModel], t, model);
-    }
-  }
-  core::LogRow copy = row;
-  Write(topics[kRow], t, copy);
+void Recorder::RecordSlow(const StepRecord& r) {
+  const std::vector<Topic>& topics = RecordedTopics();
+  Write(topics[kHeartbeat], r.time_s, MakeControllerInfo(r));
+  const bool learns = r.control.adaptation.mass_kg > 0.0;
+  if (learns) Write(topics[kModel], r.time_s, MakeQuadModel(r));
 }
 
 void Recorder::RecordEvent(std::int64_t step, double time_s, const std::string& kind,

@@ -50,10 +50,13 @@ class Recorder {
 
  private:
   template <class Message>
-  void Write(const Topic& topic, double time_s, Message& message);
+  void Write(const Topic& topic, double time_s, Message message);
+  void RecordSensors(const StepRecord& record);
+  void RecordBody(const StepRecord& record);
+  void RecordPlans(const StepRecord& record);
+  void RecordSlow(const StepRecord& record);
 
   MessageSink& sink_;
-  std::uint8_t gait_sequencer_;
   int slow_every_;  // steps between messages of the slow topics
   core::Bytes buffer_;
 };

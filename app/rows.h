@@ -16,6 +16,7 @@ struct StepRecord {
   const SensorFrame& sensors;
   const Command& command;
   const controller::ControlOutput& control;
+  const controller::GaitParams& gait;  // in force
   Counters counters;
   const sim::EnergyMeter& energy;
   const sim::BatteryState& battery;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/odometer.h"
 #include "app/placement.h"
 #include "core/hash.h"
 #include "core/math/so3.h"
@@ -242,6 +243,7 @@ class Episode {
                               z,
                               command,
                               control,
+                              ControllerNow().gait,
                               counters_so_far(),
                               actuation_.energy(),
                               actuation_.battery(),
@@ -274,7 +276,8 @@ class Episode {
       return;
     }
     if (!control_in_charge()) return;
-    MeasureDistance(p_WB);
+    odometer_.Update(p_WB.head<2>(), scenario_.physics.step_s);
+    result_.walked_m = odometer_.walked_m();
     const FallCause cause = fall_monitor_.Update(truth, ground_.HeightAt(p_WB.x(), p_WB.y()));
     if (cause != FallCause::kNone) {
       fallen_ = true;
@@ -292,24 +295,9 @@ class Episode {
 
   [[nodiscard]] bool control_in_charge() const { return operating_s_ > 0.0; }
 
-  void MeasureDistance(const Vec3& p_WB) {
-    constexpr double kChord_s = 0.5;
-    if (!chord_start_) {
-      chord_start_ = p_WB.head<2>();
-      chord_s_ = 0.0;
-    }
-    chord_s_ += scenario_.physics.step_s;
-    if (chord_s_ < kChord_s) return;
-    CloseChord();
-    chord_start_ = p_WB.head<2>();
-    chord_s_ = 0.0;
-  }
-
-  /// Counts the chord so far; also where a fall or a placement ends it early.
   void CloseChord() {
-    if (chord_start_)
-      result_.walked_m += (world_.truth().state.p_WB.head<2>() - *chord_start_).norm();
-    chord_start_.reset();
+    odometer_.CloseChord(world_.truth().state.p_WB.head<2>());
+    result_.walked_m = odometer_.walked_m();
   }
 
   /// As in the field: the robot is set on its feet where it fell. If it has not come away from its
@@ -351,7 +339,7 @@ class Episode {
     if (recorder_) recorder_->RecordStart(time_s(), start);
     fallen_ = false;
     operating_s_ = 0.0;
-    chord_start_.reset();
+    odometer_.Lift();
     ++segment_;
   }
 
@@ -389,6 +377,7 @@ class Episode {
   Operator operator_;
   core::Rng fault_rng_;
   FallMonitor fall_monitor_;
+  Odometer odometer_;
   int wbc_every_;
   bool give_truth_;
   std::optional<Recorder> recorder_;
@@ -397,7 +386,7 @@ class Episode {
   EpisodeResult result_;
   std::int64_t step_ = 0;
   std::uint32_t segment_ = 0;
-  double operating_s_ = 0.0, walking_s_ = 0.0, lying_s_ = 0.0, chord_s_ = 0.0;
+  double operating_s_ = 0.0, walking_s_ = 0.0, lying_s_ = 0.0;
   double further_m_ = 0.0;  // than where it fell, the robot was put last
   bool fallen_ = false;
   struct ActivePush {
@@ -408,7 +397,7 @@ class Episode {
   std::size_t next_change_ = 0;
   LegArray<ContactSource> contact_source_;
   std::vector<std::optional<ActivePush>> pushes_;  // those that have started
-  std::optional<Vec2> chord_start_, last_place_;
+  std::optional<Vec2> last_place_;
 };
 
 }  // namespace

@@ -3,20 +3,31 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 namespace scoria::app {
+namespace {
+
+std::string NameOfSet(std::size_t change) {
+  return fmt::format("controller_changes[{}].set", change);
+}
+
+}  // namespace
 
 std::string Scenario::Problem() const {
   for (std::size_t i = 1; i < controller_changes.size(); ++i) {
     if (controller_changes[i].at_s < controller_changes[i - 1].at_s)
-      return "controller_changes: at_s must not fall from one to the next";
+      return fmt::format("controller_changes[{}].at_s: {} is before {}, that of the change above",
+                         i, controller_changes[i].at_s, controller_changes[i - 1].at_s);
   }
   try {
-    for (const controller::ControllerParams& changed : ChangedControllers(*this)) {
-      if (changed.rates != controller.rates)
-        return "controller_changes: rates cannot change while walking";
+    const std::vector<controller::ControllerParams> changed = ChangedControllers(*this);
+    for (std::size_t i = 0; i < changed.size(); ++i) {
+      if (changed[i].rates != controller.rates)
+        return NameOfSet(i) + ": rates cannot change while walking";
     }
   } catch (const core::ConfigError& e) {
-    return std::string("controller_changes: ") + e.what();
+    return e.what();
   }
   return sim::PayloadProblem(payloads);
 }
@@ -25,8 +36,13 @@ std::vector<controller::ControllerParams> ChangedControllers(const Scenario& sce
   std::vector<controller::ControllerParams> changed;
   core::ConfigNode node = core::WriteConfig(scenario.controller);
   for (const ControllerChange& change : scenario.controller_changes) {
-    for (const std::string& assignment : change.set) core::ApplyOverride(node, assignment);
-    changed.push_back(core::ReadConfig<controller::ControllerParams>(node));
+    try {
+      for (const std::string& assignment : change.set)
+        core::ApplyAssignment(node, assignment, {assignment, 0, 0, true});
+      changed.push_back(core::ReadConfig<controller::ControllerParams>(node));
+    } catch (const core::ConfigError& e) {
+      throw core::ConfigError({}, NameOfSet(changed.size()), e.what());
+    }
   }
   return changed;
 }

@@ -182,20 +182,6 @@ std::vector<TrunkChange> PayloadRack::Update(double clock_s, double walked_m) {
   return changes;
 }
 
-RigidMass PayloadRack::total() const noexcept {
-  RigidMass out;
-  for (const Item& item : items_) {
-    out.mass_kg += item.now.mass_kg;
-    out.p_BP += item.now.mass_kg * item.now.p_BP;
-  }
-  if (out.mass_kg == 0.0) return {};
-  out.p_BP /= out.mass_kg;
-  for (const Item& item : items_) {
-    out.I_P_B += item.now.I_P_B + PointInertia(item.now.mass_kg, item.now.p_BP - out.p_BP);
-  }
-  return out;
-}
-
 /// @returns the announcement.
 std::string PayloadRack::Begin(const PayloadEvent& event, double begin_s) {
   const Ramp ramp{begin_s, event.duration_s};

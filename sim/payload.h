@@ -130,15 +130,10 @@ class PayloadRack {
   ///          and some did not.
   [[nodiscard]] std::vector<TrunkChange> Update(double clock_s, double walked_m);
 
-  [[nodiscard]] const std::vector<PayloadEvent>& events() const noexcept { return events_; }
   /// What each event that began in the last Update does, or why it does nothing.
   [[nodiscard]] const std::vector<std::string>& announcements() const noexcept {
     return announcements_;
   }
-  [[nodiscard]] const core::ModelParameters& trunk() const noexcept { return trunk_; }
-  /// Of the payloads alone; zeros if there are none.
-  [[nodiscard]] RigidMass total() const noexcept;
-  [[nodiscard]] int count() const noexcept { return static_cast<int>(items_.size()); }
 
  private:
   /// Runs from 0 to 1.

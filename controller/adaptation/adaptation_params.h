@@ -135,7 +135,6 @@ struct KfPlusParams {
   double force_N = 20.0, moment_Nm = 4.0;
   double huber = 2.0;
   double initial_kg = 3.0, initial_kgm = 0.3;
-  double gyro_cutoff_Hz = 100.0;
   double presliding_rad = 0.001;
   StepDetectionParams step;
   TareParams tare;
@@ -155,7 +154,6 @@ struct KfPlusParams {
         {.min = 0.1, .max = 1e3, .doc = "standard deviations from which on an error counts less"});
     a.Field("initial_kg", initial_kg, {.min = 1e-6, .max = 100.0});
     a.Field("initial_kgm", initial_kgm, {.min = 1e-6, .max = 10.0});
-    a.Field("gyro_cutoff_Hz", gyro_cutoff_Hz, {.min = 1.0, .max = 400.0});
     a.Field(
         "presliding_rad", presliding_rad,
         {.min = 0.0,

@@ -41,8 +41,7 @@ bool StepDetector::Update(const Vec3& error, double dt_s) noexcept {
 AdaptationKfPlus::AdaptationKfPlus(const KfPlusParams& params, const core::RobotDescription& robot,
                                    double gravity_mps2, const ObserverParams& observer) noexcept
     : params_(params),
-      balance_({gravity_mps2, params.hand_over.payload_height_m, params.gyro_cutoff_Hz,
-                params.presliding_rad, observer},
+      balance_({gravity_mps2, params.hand_over.payload_height_m, params.presliding_rad, observer},
                robot),
       tare_(params.tare),
       detector_(params.step),
@@ -68,10 +67,7 @@ void AdaptationKfPlus::Correct(const WrenchSample& sample, double dt_s) noexcept
   information += OpenCovariance().inverse();
   const Vec6 innovation = excess - sample.Y * filter_.pi;
   const Vec3 error = information.ldlt().solve(weighted.transpose() * innovation);
-  if (detector_.Update(error, dt_s)) {
-    filter_.P = OpenCovariance();
-    ++steps_seen_;
-  }
+  if (detector_.Update(error, dt_s)) filter_.P = OpenCovariance();
   // Huber: beyond the limit the noise grows with the error, so that its pull stays constant. What
   // the filter itself is not sure of widens the limit: right after a change nothing is an outlier.
   const Vec6 spread = (sample.Y * filter_.P * sample.Y.transpose()).diagonal() + R;

@@ -53,7 +53,6 @@ class AdaptationKfPlus final : public ModelAdapter {
 
   [[nodiscard]] const Adaptation& Update(const AdapterInput& in) noexcept override;
   void Continue(const core::ModelParameters& in_use) noexcept override;
-  [[nodiscard]] int steps_seen() const noexcept { return steps_seen_; }
 
  private:
   void Correct(const WrenchSample& sample, double dt_s) noexcept;
@@ -67,7 +66,6 @@ class AdaptationKfPlus final : public ModelAdapter {
   HandOver hand_over_;
   Adaptation out_;
   double since_s_ = 0.0, at_work_s_ = 0.0;
-  int steps_seen_ = 0;
 };
 
 }  // namespace scoria::controller

@@ -25,9 +25,7 @@ RecursiveLeastSquares::RecursiveLeastSquares(const RlsParams& params,
                                              double gravity_mps2,
                                              const ObserverParams& observer) noexcept
     : params_(params),
-      balance_(
-          {gravity_mps2, params.hand_over.payload_height_m, observer.gyro_cutoff_Hz, 0.0, observer},
-          robot),
+      balance_({gravity_mps2, params.hand_over.payload_height_m, 0.0, observer}, robot),
       hand_over_(params.hand_over, robot) {
   const core::WholeBody& wb = balance_.nominal();
   const Vec3 c = wb.p_WC - wb.state.p_WB;

@@ -3,16 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/math/so3.h"
 
 namespace scoria::controller {
 namespace {
-
-double LowPassShare(double cutoff_Hz, double dt_s) noexcept {
-  return 1.0 - std::exp(-2.0 * std::numbers::pi * cutoff_Hz * dt_s);
-}
 
 bool IsFinite(const AdapterInput& in) noexcept {
   bool finite = in.state.R_WB.allFinite() && in.state.w_WB.allFinite() && in.z.a_WS_S.allFinite() &&
@@ -44,7 +39,8 @@ WrenchBalance::Signals WrenchBalance::CalcSignals(const AdapterInput& in) noexce
   state.p_WB = state.v_WB = Vec3::Zero();
   model_.Calc(state, wb_);
   const Vec3 before = started_ ? w_WS_S_ : in.z.w_WS_S;
-  w_WS_S_ = before + LowPassShare(params_.gyro_cutoff_Hz, in.dt_s) * (in.z.w_WS_S - before);
+  const double share = LowPassShare(params_.observer.gyro_cutoff_Hz, in.dt_s);
+  w_WS_S_ = before + share * (in.z.w_WS_S - before);
   const Vec3 w_B = robot_.R_BS * w_WS_S_;
   const Vec3 alpha_B = robot_.R_BS * (w_WS_S_ - before) / in.dt_s;
   const Mat3 W = core::Skew(w_B);
@@ -70,28 +66,20 @@ WrenchBalance::Signals WrenchBalance::CalcSignals(const AdapterInput& in) noexce
   return now;
 }
 
-/// The delays and low passes of MomentumObserver.
+/// As late as MomentumObserver's forces.
 void WrenchBalance::Filter(const Signals& now, double dt_s) noexcept {
   if (!started_) {
-    filled_ = 0;
-    first_ = second_ = out_ = now.prompt;
-    speed_ = Vec6::Zero();
+    signals_.Clear();
+    prompt_.Settle(now.prompt);
+    speed_.Settle(Vec6::Zero());
   }
-  newest_ = (newest_ + 1) % ring_.size();
-  filled_ = std::min(filled_ + 1, ring_.size());
-  ring_[newest_] = now;
+  signals_.Next() = now;
   const ObserverParams& observer = params_.observer;
-  const auto wanted = static_cast<std::size_t>(std::lround(observer.torque_delay_s / dt_s));
-  const std::size_t ago = std::min({wanted, filled_ - 1, kMaxDelay});
-  const Signals& then = ring_[(newest_ + ring_.size() - ago) % ring_.size()];
-  const double loop = observer.velocity_bandwidth_Hz > 0.0
-                          ? LowPassShare(observer.velocity_bandwidth_Hz, dt_s)
-                          : 1.0;
-  first_ += loop * (then.prompt - first_);
-  second_ += loop * (first_ - second_);
-  const double share = LowPassShare(observer.cutoff_Hz, dt_s);
-  out_ += share * (second_ - out_);
-  speed_ += share * (then.speed - speed_);
+  const Lag lag =
+      CalcLag(observer.torque_delay_s, observer.velocity_bandwidth_Hz, observer.cutoff_Hz, dt_s);
+  const Signals& then = signals_.Ago(lag.steps);
+  prompt_.Update(then.prompt, Prompt::Zero(), lag);
+  speed_.Update(Vec6::Zero(), then.speed, lag);
   started_ = true;
 }
 
@@ -118,25 +106,26 @@ bool WrenchBalance::Add(const AdapterInput& in) noexcept {
   if (!(in.dt_s > 0.0) || !IsFinite(in)) return false;
   Slide(in.state);
   Filter(CalcSignals(in), in.dt_s);
+  const Prompt& prompt = prompt_.out();
   Vec6 wrench = Vec6::Zero();
   bool stands = false;
   for (const Leg leg : kLegs) {
     const Vec3 f_B =
         in.state.R_WB.transpose() * (in.contact.f_F_W[leg] + CalcStiction(leg, in.state));
-    const Vec3 p_BF = out_.segment<3>(kFeet + 3 * static_cast<Eigen::Index>(leg));
+    const Vec3 p_BF = prompt.segment<3>(kFeet + 3 * static_cast<Eigen::Index>(leg));
     wrench.head<3>() += f_B;
     wrench.tail<3>() += p_BF.cross(f_B);
     stands = stands || in.contact.contact[leg];
   }
-  const Vec3 s_B = out_.segment<3>(kForce);
-  const Mat3 A = out_.segment<9>(kTurn).reshaped(3, 3);
+  const Vec3 s_B = prompt.segment<3>(kForce);
+  const Mat3 A = prompt.segment<9>(kTurn).reshaped(3, 3);
   const double z = params_.payload_height_m;
   Mat63 Y;
   Y.topRows<3>() << s_B + z * A.col(2), A.col(0), A.col(1);
   Y.bottomRows<3>() << z * Vec3::UnitZ().cross(s_B), Vec3::UnitX().cross(s_B),
       Vec3::UnitY().cross(s_B);
   sum_.wrench += wrench;
-  sum_.nominal += out_.segment<6>(kWrench) + speed_;
+  sum_.nominal += prompt.segment<6>(kWrench) + speed_.out();
   sum_.Y += Y;
   sum_.s_B += s_B;
   ++sum_.steps;

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
-#include <cstddef>
-
 #include "controller/adaptation/model_adapter.h"
+#include "controller/model/lag.h"
 #include "core/robot/description.h"
 #include "core/robot/whole_body.h"
 
@@ -23,7 +21,6 @@ struct WrenchSample {
 struct WrenchBalanceParams {
   double gravity_mps2 = 9.81;
   double payload_height_m = 0.0;
-  double gyro_cutoff_Hz = 100.0;
   double presliding_rad = 0.0;  // 0: friction as the observer has it
   ObserverParams observer;
 };
@@ -58,7 +55,6 @@ class WrenchBalance {
  private:
   static constexpr int kPrompt = 30;  // nominal wrench 6, s_B 3, A 9, p_BF_B 12
   using Prompt = Eigen::Matrix<double, kPrompt, 1>;
-  static constexpr std::size_t kMaxDelay = 32;  // steps
   struct Signals {
     Prompt prompt = Prompt::Zero();
     Vec6 speed = Vec6::Zero();  // of the change of the joint speeds
@@ -72,10 +68,9 @@ class WrenchBalance {
   const core::RobotDescription& robot_;
   core::WholeBodyModel model_;
   core::WholeBody wb_;
-  std::array<Signals, kMaxDelay + 1> ring_;
-  std::size_t newest_ = 0, filled_ = 0;
-  Prompt first_ = Prompt::Zero(), second_ = Prompt::Zero(), out_ = Prompt::Zero();
-  Vec6 speed_ = Vec6::Zero();
+  DelayLine<Signals> signals_;
+  LowPassChain<kPrompt> prompt_;
+  LowPassChain<6> speed_;
   Vec3 w_WS_S_ = Vec3::Zero();
   LegArray<Vec3> q_ = ZeroPerLeg(), qd_ = ZeroPerLeg();
   LegArray<Vec3> slid_ = ZeroPerLeg();  // x of Dahl's model

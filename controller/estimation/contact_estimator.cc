@@ -30,6 +30,8 @@ ContactEstimator::ContactEstimator(const ContactParams& params, const core::Robo
 
 void ContactEstimator::UpdateObserver(const ContactInput& in) noexcept {
   out_.f_F_W = observer_.Update({in.wb, in.z, step_s_});
+  out_.vd_WB = observer_.a_B().head<3>();
+  out_.wd_WB = observer_.a_B().tail<3>();
   const Vec3 n_W = in.plane.Normal();
   const double weight_N = in.wb.mass_kg * gravity_mps2_;
   for (const Leg leg : kLegs) {

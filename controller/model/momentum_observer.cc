@@ -3,20 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 namespace scoria::controller {
-namespace {
-
-/// Step of a first-order low pass towards its input, for an input held over dt.
-double LowPassShare(double cutoff_Hz, double dt_s) noexcept {
-  return 1.0 - std::exp(-2.0 * std::numbers::pi * cutoff_Hz * dt_s);
-}
-
-}  // namespace
 
 Vec3 CalcFootForce(const Mat3& J, const Vec3& t, double singular_below_m) noexcept {
   const Mat3 A = J * J.transpose();
@@ -72,42 +63,32 @@ Vec3 MomentumObserver::CalcFriction(const Vec3& qd) const noexcept {
   return t;
 }
 
-const MomentumObserver::Sample& MomentumObserver::Delayed(double dt_s) const noexcept {
-  const auto wanted = static_cast<std::size_t>(std::lround(params_.torque_delay_s / dt_s));
-  const std::size_t ago = std::min({wanted, filled_ - 1, kMaxDelay});
-  return ring_[(newest_ + ring_.size() - ago) % ring_.size()];
-}
-
 void MomentumObserver::UpdateLeg(Leg leg, const Sample& then, const Vec3& tau_Nm,
-                                 double dt_s) noexcept {
+                                 const Lag& lag) noexcept {
   const Vec3 prompt = then.t_prompt[leg] - tau_Nm;
   // What is not finite must not stay in the filters for good.
   if (!prompt.allFinite() || !then.t_speed[leg].allFinite() || !then.J[leg].allFinite()) return;
-  const bool alike = started_ && params_.velocity_bandwidth_Hz > 0.0;
-  const double loop = alike ? LowPassShare(params_.velocity_bandwidth_Hz, dt_s) : 1.0;
-  t_first_[leg] += loop * (prompt - t_first_[leg]);
-  t_second_[leg] += loop * (t_first_[leg] - t_second_[leg]);
-  const double share = started_ ? LowPassShare(params_.cutoff_Hz, dt_s) : 1.0;
-  t_f_[leg] += share * (t_second_[leg] + then.t_speed[leg] - t_f_[leg]);
-  f_F_W_[leg] = CalcFootForce(then.J[leg], t_f_[leg], params_.singular_below_m);
+  const Vec3& t_f = t_f_[leg].Update(prompt, then.t_speed[leg], lag);
+  f_F_W_[leg] = CalcFootForce(then.J[leg], t_f, params_.singular_below_m);
 }
 
 const LegArray<Vec3>& MomentumObserver::Update(const ObserverInput& in) noexcept {
   if (!in.z.a_WS_S.allFinite() || !in.z.w_WS_S.allFinite()) return f_F_W_;
-  const Vec6 a_B = CalcTrunkAcceleration(in);
-  newest_ = (newest_ + 1) % ring_.size();
-  filled_ = std::min(filled_ + 1, ring_.size());
-  Sample& now = ring_[newest_];
+  a_B_ = CalcTrunkAcceleration(in);
+  Sample& now = samples_.Next();
   for (const Leg leg : kLegs) {
     const Vec3& qd = in.z.qd[leg];
     const Vec3 qdd = started_ ? Vec3((qd - qd_[leg]) / in.dt_s) : Vec3(Vec3::Zero());
-    now.t_prompt[leg] = in.wb.H_Bl[leg].transpose() * a_B + in.wb.h_l[leg];
+    now.t_prompt[leg] = in.wb.H_Bl[leg].transpose() * a_B_ + in.wb.h_l[leg];
     now.t_speed[leg] = in.wb.H_ll[leg] * qdd + CalcFriction(qd);
     now.J[leg] = in.wb.J_ll[leg];
     qd_[leg] = qd;
   }
-  const Sample& then = Delayed(in.dt_s);
-  for (const Leg leg : kLegs) UpdateLeg(leg, then, in.z.tau_Nm[leg], in.dt_s);
+  const Lag lag = started_ ? CalcLag(params_.torque_delay_s, params_.velocity_bandwidth_Hz,
+                                     params_.cutoff_Hz, in.dt_s)
+                           : Lag{};
+  const Sample& then = samples_.Ago(lag.steps);
+  for (const Leg leg : kLegs) UpdateLeg(leg, then, in.z.tau_Nm[leg], lag);
   started_ = true;
   return f_F_W_;
 }

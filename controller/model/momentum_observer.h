@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
-#include <cstddef>
-
+#include "controller/model/lag.h"
 #include "core/config/archive.h"
 #include "core/robot/description.h"
 #include "core/robot/state.h"
@@ -86,9 +84,10 @@ class MomentumObserver {
   /// A leg whose readings or model are not finite keeps its force; all do without the IMU.
   /// @returns N, ground on foot, in W.
   const LegArray<Vec3>& Update(const ObserverInput& in) noexcept;
+  /// [v̇_WB; ẇ_WB] of the last call, in W and without gravity.
+  [[nodiscard]] const Vec6& a_B() const noexcept { return a_B_; }
 
  private:
-  static constexpr std::size_t kMaxDelay = 32;  // ticks
   /// What stands against the motor torque, and the Jacobian at that time.
   struct Sample {
     LegArray<Vec3> t_prompt = ZeroPerLeg();  // trunk's acceleration, gravity, Coriolis
@@ -97,19 +96,16 @@ class MomentumObserver {
   };
   [[nodiscard]] Vec6 CalcTrunkAcceleration(const ObserverInput& in) noexcept;
   [[nodiscard]] Vec3 CalcFriction(const Vec3& qd) const noexcept;
-  [[nodiscard]] const Sample& Delayed(double dt_s) const noexcept;
-  void UpdateLeg(Leg leg, const Sample& then, const Vec3& tau_Nm, double dt_s) noexcept;
+  void UpdateLeg(Leg leg, const Sample& then, const Vec3& tau_Nm, const Lag& lag) noexcept;
 
   ObserverParams params_;
   const core::RobotDescription& robot_;
   Vec3 g_W_;
-  std::array<Sample, kMaxDelay + 1> ring_;
-  std::size_t newest_ = 0, filled_ = 0;
-  Vec3 w_WS_S_ = Vec3::Zero();              // filtered
-  LegArray<Vec3> qd_ = ZeroPerLeg();        // of the last call
-  LegArray<Vec3> t_first_ = ZeroPerLeg();   // prompt terms less torque, after ω / (s + ω)
-  LegArray<Vec3> t_second_ = ZeroPerLeg();  // and after another
-  LegArray<Vec3> t_f_ = ZeroPerLeg();       // J_llᵀ f_F, filtered
+  DelayLine<Sample> samples_;
+  Vec3 w_WS_S_ = Vec3::Zero();  // filtered
+  Vec6 a_B_ = Vec6::Zero();
+  LegArray<Vec3> qd_ = ZeroPerLeg();  // of the last call
+  LegArray<LowPassChain<3>> t_f_;     // J_llᵀ f_F
   LegArray<Vec3> f_F_W_ = ZeroPerLeg();
   bool started_ = false;
 };

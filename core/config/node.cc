@@ -147,6 +147,10 @@ bool NeedsQuotes(const std::string& s) {
          s.back() == ' ' || s.back() == ':';
 }
 
+std::string OpenUnlessEmpty(std::string_view part) {
+  return part.empty() ? "" : fmt::format("{}: ", part);
+}
+
 void Emit(const ConfigNode& node, YAML::Emitter& out) {
   switch (node.kind) {
     case ConfigNode::Kind::kNull:
@@ -188,8 +192,8 @@ std::string Origin::ToString() const {
 }
 
 ConfigError::ConfigError(const Origin& origin, std::string_view key, std::string_view rule)
-    : std::runtime_error(key.empty() ? fmt::format("{}: {}", origin.ToString(), rule)
-                                     : fmt::format("{}: {}: {}", origin.ToString(), key, rule)) {}
+    : std::runtime_error(OpenUnlessEmpty(origin.ToString()) + OpenUnlessEmpty(key) +
+                         std::string(rule)) {}
 
 const ConfigNode* ConfigNode::Find(std::string_view key) const {
   for (const Entry& entry : entries) {
@@ -262,7 +266,10 @@ void MergeConfig(ConfigNode& onto, const ConfigNode& over) {
 }
 
 void ApplyOverride(ConfigNode& root, const std::string& assignment) {
-  const Origin origin{"--set " + assignment, 0, 0, true};
+  ApplyAssignment(root, assignment, {"--set " + assignment, 0, 0, true});
+}
+
+void ApplyAssignment(ConfigNode& root, const std::string& assignment, const Origin& origin) {
   const std::size_t equals = assignment.find('=');
   if (equals == std::string::npos || equals == 0) {
     throw ConfigError(origin, "", "must read key.subkey=value");

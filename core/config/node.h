@@ -65,6 +65,9 @@ void MergeConfig(ConfigNode& onto, const ConfigNode& over);
 /// Applies one command-line override "a.b.c=value", the value in YAML.
 void ApplyOverride(ConfigNode& root, const std::string& assignment);
 
+/// As ApplyOverride, for an assignment that stands elsewhere; `origin` is named in messages.
+void ApplyAssignment(ConfigNode& root, const std::string& assignment, const Origin& origin);
+
 /// Sets the value at "a.b.c", merging as MergeConfig does; its origin stays its own.
 void SetAt(ConfigNode& root, const std::string& key_path, ConfigNode value);
 

@@ -27,6 +27,8 @@ struct ContactEstimate {
   LegArray<double> sensor_counts;         // over the sensor's threshold
   LegArray<double> observer_probability;  // of contact
   LegArray<bool> sensor_healthy;
+  /// Of the trunk, in W without gravity: what the observer takes from the IMU.
+  Vec3 vd_WB = Vec3::Zero(), wd_WB = Vec3::Zero();  // m/s^2, rad/s^2
   bool operator==(const ContactEstimate&) const = default;
 };
 

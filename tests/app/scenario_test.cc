@@ -103,19 +103,31 @@ TEST(ControllerChanges, AreCheckedWhenTheScenarioIsRead) {
     try {
       (void)test::LoadScenario("flat", {"controller_changes=" + changes});
     } catch (const core::ConfigError& e) {
-      return e.what();
+      const std::string file = test::SourcePath("scenarios/flat.yaml").string() + ":2:1: ";
+      const std::string text = e.what();
+      EXPECT_TRUE(text.starts_with(file)) << text;
+      return text.substr(std::min(text.size(), file.size()));
     }
     return "";
   };
   EXPECT_EQ(error("[{at_s: 1, set: [gait.type=sgs]}]"), "");
-  EXPECT_NE(
-      error("[{at_s: 1, set: [gait.type=trott]}]").find("choices: ags, bio, sgs, sgs_matched"),
-      std::string::npos);
-  EXPECT_NE(error("[{at_s: 1, set: [rates.mpc_Hz=50]}]").find("rates cannot change while walking"),
-            std::string::npos);
-  EXPECT_NE(error("[{at_s: 2, set: [mpc.horizon=20]}, {at_s: 1, set: [mpc.horizon=10]}]")
-                .find("at_s must not fall from one to the next"),
-            std::string::npos);
+  EXPECT_EQ(
+      error("[{at_s: 1, set: [gait.type=sgs]}, {at_s: 2, set: [gait.type=trott]}]"),
+      "controller_changes[1].set: gait.type=trott: gait.type: unknown \"trott\"; choices: ags, "
+      "bio, sgs, sgs_matched");
+  EXPECT_EQ(error("[{at_s: 1, set: [gait.type=sgs, mpc.horizon=40]}]"),
+            "controller_changes[0].set: mpc.horizon=40: mpc.horizon: 40 is outside [2, 20]");
+  EXPECT_EQ(error("[{at_s: 1, set: [mpc.horizont=10]}]"),
+            "controller_changes[0].set: mpc.horizont=10: mpc.horizont: unknown key (did you mean "
+            "\"horizon\"?)");
+  EXPECT_EQ(error("[{at_s: 1, set: [mpc.horizon]}]"),
+            "controller_changes[0].set: mpc.horizon: must read key.subkey=value");
+  EXPECT_EQ(error("[{at_s: 1, set: [mpc.f_min_N=200, mpc.f_max_N=100]}]"),
+            "controller_changes[0].set: mpc: f_min_N must be below f_max_N");
+  EXPECT_EQ(error("[{at_s: 1, set: [rates.mpc_Hz=50]}]"),
+            "controller_changes[0].set: rates cannot change while walking");
+  EXPECT_EQ(error("[{at_s: 2, set: [mpc.horizon=20]}, {at_s: 1, set: [mpc.horizon=10]}]"),
+            "controller_changes[1].at_s: 1 is before 2, that of the change above");
 }
 
 // A change of one choice leaves the section's other keys as they were tuned.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/payload.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -37,6 +38,32 @@ PayloadEvent EventAt(double at_s, PayloadAction action, const std::string& paylo
   e.action = action;
   e.payload = payload;
   return e;
+}
+
+/// Whether one change comes, to the bare trunk with that body.
+::testing::AssertionResult LoadsWith(const RigidMass& body,
+                                     const std::vector<TrunkChange>& changes) {
+  if (changes.size() != 1)
+    return ::testing::AssertionFailure() << changes.size() << " changes instead of one";
+  const core::ModelParameters& trunk = changes[0].trunk;
+  const core::ModelParameters wanted = AddBodies(BareTrunk(), std::vector<RigidMass>{body});
+  const double mass_kg = std::abs(trunk.trunk_mass_kg - wanted.trunk_mass_kg);
+  const double place_m = (trunk.p_BC_trunk - wanted.p_BC_trunk).norm();
+  const double inertia_kgm2 = (trunk.I_C_B_trunk - wanted.I_C_B_trunk).norm();
+  if (std::max({mass_kg, place_m, inertia_kgm2}) < 1e-14) return ::testing::AssertionSuccess();
+  return ::testing::AssertionFailure()
+         << "off by " << mass_kg << " kg, " << place_m << " m, " << inertia_kgm2 << " kg m^2";
+}
+
+/// Roll, pitch, yaw half-way of the shortest turn between two others.
+Vec3 HalfTurn(const Vec3& from_rpy_rad, const Vec3& to_rpy_rad) {
+  const Mat3 from = core::RotationFromRpy(from_rpy_rad), to = core::RotationFromRpy(to_rpy_rad);
+  return core::RpyFromRotation(core::ExpSo3(0.5 * core::LogSo3(to * from.transpose())) * from);
+}
+
+/// A share of a body, in its place.
+RigidMass Share(double share, const RigidMass& whole) {
+  return {share * whole.mass_kg, whole.p_BP, share * whole.I_P_B};
 }
 
 LegArray<Vec3> Hold(const RobotState& s, const LegArray<Vec3>& q) {
@@ -172,20 +199,17 @@ TEST(PayloadRack, AddedThenRemovedRestoresTheTrunkBitForBit) {
       world.SetTrunkParameters(change.trunk, change.attach_velocity);
       ++changes;
     }
+    const core::ModelParameters& now = world.truth().trunk;
     if (i == 1500) {
-      EXPECT_EQ(rack.total().mass_kg, 5.0);
+      EXPECT_EQ(now, AddBodies(BareTrunk(), std::vector<RigidMass>{ToRigidMass(Plate())}));
     }
     if (i == 6500) {
-      EXPECT_EQ(rack.trunk(), AddBodies(BareTrunk(), std::vector<RigidMass>{ToRigidMass(kit)}));
-      EXPECT_EQ(rack.count(), 1);
+      EXPECT_EQ(now, AddBodies(BareTrunk(), std::vector<RigidMass>{ToRigidMass(kit)}));
     }
   }
   EXPECT_GT(changes, 1000);
   EXPECT_EQ(before, BareTrunk());
-  EXPECT_EQ(rack.trunk(), before);
   EXPECT_EQ(world.truth().trunk, before);
-  EXPECT_EQ(rack.count(), 0);
-  EXPECT_EQ(rack.total(), RigidMass{});
 }
 
 TEST(PayloadRack, GradualEventsRunOnTheClock) {
@@ -194,16 +218,14 @@ TEST(PayloadRack, GradualEventsRunOnTheClock) {
   PayloadRack rack(BareTrunk(), {add});
   EXPECT_TRUE(rack.Update(1.0, 0.0).empty());
   EXPECT_TRUE(rack.announcements().empty());
-  EXPECT_EQ(rack.Update(2.0, 0.0).size(), 1u);
+  const RigidMass plate = ToRigidMass(Plate());
+  EXPECT_TRUE(LoadsWith(Share(0.25, plate), rack.Update(2.0, 0.0)));
   ASSERT_EQ(rack.announcements().size(), 1u);
   EXPECT_EQ(rack.announcements()[0],
             "payload plate added over 4 s: 5 kg at (0.020, 0.050, 0.090) m");
-  EXPECT_DOUBLE_EQ(rack.total().mass_kg, 1.25);
-  EXPECT_LT((rack.total().I_P_B - 0.25 * ToRigidMass(Plate()).I_P_B).norm(), 1e-15);
   EXPECT_TRUE(rack.Update(2.0, 0.0).empty()) << "the clock stands still";
   EXPECT_TRUE(rack.announcements().empty());
-  EXPECT_EQ(rack.Update(5.0, 0.0).size(), 1u);
-  EXPECT_EQ(rack.total().mass_kg, 5.0);
+  EXPECT_TRUE(LoadsWith(plate, rack.Update(5.0, 0.0)));
   EXPECT_TRUE(rack.Update(9.0, 0.0).empty());
 }
 
@@ -216,8 +238,7 @@ TEST(PayloadRack, EventsBeginAtADistance) {
   EXPECT_TRUE(rack.Update(50.0, 2.9).empty());
   EXPECT_TRUE(rack.Update(60.0, 3.1).empty()) << "it begins with nothing";
   EXPECT_EQ(rack.announcements().size(), 1u);
-  EXPECT_EQ(rack.Update(61.0, 3.2).size(), 1u);
-  EXPECT_DOUBLE_EQ(rack.total().mass_kg, 2.5);
+  EXPECT_TRUE(LoadsWith(Share(0.5, ToRigidMass(Plate())), rack.Update(61.0, 3.2)));
 }
 
 TEST(PayloadRack, MovedBodyGoesStraightAndTurns) {
@@ -226,17 +247,17 @@ TEST(PayloadRack, MovedBodyGoesStraightAndTurns) {
   move.rpy_rad = Vec3(0.0, 0.0, 1.2);
   move.duration_s = 2.0;
   PayloadRack rack(BareTrunk(), {AddAt(0.0, Plate()), move});
-  EXPECT_EQ(rack.Update(0.5, 0.0).size(), 1u);
-  EXPECT_EQ(rack.Update(2.0, 0.0).size(), 1u);
+  EXPECT_TRUE(LoadsWith(ToRigidMass(Plate()), rack.Update(0.5, 0.0)));
+  PayloadParams half_way = Plate();
+  half_way.p_BP_m = {0.02, -0.05, 0.09};
+  half_way.rpy_rad = HalfTurn(Plate().rpy_rad, *move.rpy_rad);
+  EXPECT_TRUE(LoadsWith(ToRigidMass(half_way), rack.Update(2.0, 0.0)));
   EXPECT_EQ(rack.announcements().at(0),
             "payload plate moved over 2 s: 5 kg to (0.020, -0.150, 0.090) m");
-  EXPECT_LT((rack.total().p_BP - Vec3(0.02, -0.05, 0.09)).norm(), 1e-15);
-  EXPECT_EQ(rack.Update(4.0, 0.0).size(), 1u);
   PayloadParams there = Plate();
   there.p_BP_m = *move.p_BP_m;
   there.rpy_rad = *move.rpy_rad;
-  EXPECT_LT((rack.total().p_BP - there.p_BP_m).norm(), 1e-15);
-  EXPECT_LT((rack.total().I_P_B - ToRigidMass(there).I_P_B).norm(), 1e-15);
+  EXPECT_TRUE(LoadsWith(ToRigidMass(there), rack.Update(4.0, 0.0)));
 }
 
 TEST(PayloadRack, ShedBodyKeepsTheRestInItsPlace) {
@@ -244,13 +265,9 @@ TEST(PayloadRack, ShedBodyKeepsTheRestInItsPlace) {
   shed.share = 0.4;
   PayloadRack rack(BareTrunk(), {AddAt(0.0, Plate()), shed});
   (void)rack.Update(0.5, 0.0);
-  EXPECT_EQ(rack.Update(1.5, 0.0).size(), 1u);
+  EXPECT_TRUE(LoadsWith(Share(0.6, ToRigidMass(Plate())), rack.Update(1.5, 0.0)));
   EXPECT_EQ(rack.announcements().at(0),
             "payload plate loses a part: 2 of 5 kg at (0.020, 0.050, 0.090) m");
-  const RigidMass whole = ToRigidMass(Plate());
-  EXPECT_DOUBLE_EQ(rack.total().mass_kg, 3.0);
-  EXPECT_LT((rack.total().p_BP - whole.p_BP).norm(), 1e-15);
-  EXPECT_LT((rack.total().I_P_B - 0.6 * whole.I_P_B).norm(), 1e-15);
 }
 
 TEST(PayloadRack, MatchedAndRestedBodiesInOneStepAreTwoChanges) {
@@ -264,7 +281,8 @@ TEST(PayloadRack, MatchedAndRestedBodiesInOneStepAreTwoChanges) {
   EXPECT_EQ(changes[0].attach_velocity, AttachVelocity::kMatched);
   EXPECT_EQ(changes[0].trunk, AddBodies(BareTrunk(), std::vector<RigidMass>{ToRigidMass(other)}));
   EXPECT_EQ(changes[1].attach_velocity, AttachVelocity::kRest);
-  EXPECT_EQ(changes[1].trunk, rack.trunk());
+  EXPECT_EQ(changes[1].trunk, AddBodies(BareTrunk(), std::vector<RigidMass>{ToRigidMass(Plate()),
+                                                                            ToRigidMass(other)}));
 }
 
 TEST(PayloadRack, EventWithoutItsBodyDoesNothingAndSaysSo) {

@@ -19,6 +19,9 @@ struct LogTick {
   LegArray<bool> contact;
 };
 
+inline constexpr double kGo1FootRadius_m = 0.02;
+inline constexpr std::size_t kGo1SettleTicks = 20;  // of the log's start: left out of scores
+
 /// Where the log lies; nothing if SCORIA_REFERENCE_DATA is not set.
 std::optional<std::filesystem::path> Go1Folder();
 
