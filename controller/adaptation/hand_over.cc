@@ -61,8 +61,11 @@ Adaptation HandOver::Update(const Vec3& dpi_any, const Mat3& P, const core::Whol
   const Vec3 dpi = Clamp(dpi_any);
   const Vec3 limit(params_.max_sigma_kg, params_.max_sigma_kgm, params_.max_sigma_kgm);
   const Vec3 variance = P.diagonal();
-  const double worst = variance.cwiseQuotient(limit.cwiseProduct(limit)).maxCoeff();
-  if (worst <= 1.0) goal_ = dpi;
+  const Vec3 doubt = variance.cwiseQuotient(limit.cwiseProduct(limit));
+  // Each as soon as it is sure: the mass long before where it lies, which until then stays.
+  for (int i = 0; i < 3; ++i) {
+    if (doubt[i] <= 1.0) goal_[i] = dpi[i];
+  }
 
   const Vec3 step = dt_s * Vec3(params_.rate_kgps, params_.rate_kgmps, params_.rate_kgmps);
   const Vec3 next = Clamp(handed_ + (goal_ - handed_).cwiseMax(-step).cwiseMin(step));
@@ -75,7 +78,7 @@ Adaptation HandOver::Update(const Vec3& dpi_any, const Mat3& P, const core::Whol
   const Vec3 excess(dpi[1], dpi[2], dpi[0] * params_.payload_height_m);
   out.p_BC = (nominal.mass_kg * p_BC + excess) / out.mass_kg;
   out.P = P;
-  out.quality = 1.0 / (1.0 + std::max(0.0, worst));
+  out.quality = 1.0 / (1.0 + std::max(0.0, doubt.maxCoeff()));
   return out;
 }
 

@@ -35,7 +35,7 @@ class HandOver {
   HandOverParams params_;
   const core::RobotDescription& robot_;
   Vec2 hips_m_ = Vec2::Zero();  // half sides of the rectangle
-  Vec3 goal_ = Vec3::Zero();    // last Δπ that was sure enough
+  Vec3 goal_ = Vec3::Zero();    // last of each of Δπ that was sure enough
   Vec3 handed_ = Vec3::Zero();  // Δπ of the controller's model
 };
 
