@@ -71,8 +71,12 @@ void FootSensor::CloseBucket() noexcept {
       std::min(std::max(reference, *zero_ + params_.noise_counts), params_.max_threshold_counts);
 }
 
+bool SensorHealth::IsSaturated(const HealthInput& in) const noexcept {
+  return in.raw_counts >= params_.saturated_counts;
+}
+
 bool SensorHealth::IsStuck(const HealthInput& in) noexcept {
-  if (in.raw_counts != frozen_counts_) {
+  if (in.raw_counts != frozen_counts_ || IsSaturated(in)) {
     frozen_counts_ = in.raw_counts;
     frozen_s_ = changed_s_ = 0.0;
     return false;
@@ -117,8 +121,9 @@ bool SensorHealth::Contradicts(const HealthInput& in) noexcept {
 bool SensorHealth::Mismatches(const HealthInput& in) noexcept {
   const bool settled = since_observer_s_ > params_.transition_s;
   // A sensor that is not believed must come back to what it was.
+  const bool learn = healthy_ && !IsSaturated(in);
   return !match_.Update(
-      {in.raw_counts, in.force_N, settled && SurelyUp(in), settled && SurelyDown(in), healthy_});
+      {in.raw_counts, in.force_N, settled && SurelyUp(in), settled && SurelyDown(in), learn});
 }
 
 void SensorHealth::TrackTransitions(const HealthInput& in) noexcept {

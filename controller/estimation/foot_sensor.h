@@ -101,6 +101,7 @@ class FootSensor {
 struct HealthParams {
   double stuck_s = 0.1;
   double stuck_force_N = 25.0;
+  double saturated_counts = 1023.0;
   double transition_s = 0.025;
   double sure = 0.75;
   double moving_mps = 0.8;
@@ -119,6 +120,10 @@ struct HealthParams {
              .max = 1e4,
              .doc = "and means a stuck sensor if the observer's force has become so different "
                     "meanwhile, for longer than a transition"});
+    a.Field("saturated_counts", saturated_counts,
+            {.min = 0.0,
+             .max = 1e6,
+             .doc = "readings from here on may stay the same, and do not tell the gain"});
     a.Field("transition_s", transition_s,
             {.min = 0.0,
              .max = 0.5,
@@ -174,6 +179,7 @@ class SensorHealth {
   [[nodiscard]] bool HasDrifted(const HealthInput& in) noexcept;
   [[nodiscard]] bool Contradicts(const HealthInput& in) noexcept;
   [[nodiscard]] bool Mismatches(const HealthInput& in) noexcept;
+  [[nodiscard]] bool IsSaturated(const HealthInput& in) const noexcept;
   [[nodiscard]] bool SurelyDown(const HealthInput& in) const noexcept;
   [[nodiscard]] bool SurelyUp(const HealthInput& in) const noexcept;
   void TrackTransitions(const HealthInput& in) noexcept;

@@ -11,7 +11,6 @@ struct ForceMatchParams {
   double tolerance_share = 0.2;
   double cap_N = 50.0;
   double impulse_Ns = 0.5;
-  double saturated_counts = 1023.0;
   template <class Archive>
   void Serialize(Archive& a) {
     a.Field(
@@ -20,10 +19,12 @@ struct ForceMatchParams {
          .max = 60.0,
          .doc = "time constant of the zero, in time in the air, and of the gain, in time on the "
                 "ground; nothing is judged before so much of both"});
-    a.Field("tolerance_N", tolerance_N,
-            {.min = 0.0,
-             .max = 1e4,
-             .doc = "counts and observer may differ by so much for good: friction, dead band"});
+    a.Field(
+        "tolerance_N", tolerance_N,
+        {.min = 0.0,
+         .max = 1e4,
+         .doc =
+             "by so much the counts may mean more than the observer's force for good: friction"});
     a.Field(
         "tolerance_share", tolerance_share,
         {.min = 0.0,
@@ -32,15 +33,11 @@ struct ForceMatchParams {
     a.Field("cap_N", cap_N,
             {.min = 0.0,
              .max = 1e4,
-             .doc = "a larger difference counts as this: impacts, which the observer smooths"});
+             .doc = "a larger excess counts as this: impacts, which the observer smooths"});
     a.Field("impulse_Ns", impulse_Ns,
             {.min = 0.0,
              .max = 100.0,
-             .doc = "difference beyond the tolerance, summed up over time, that is a fault"});
-    a.Field("saturated_counts", saturated_counts,
-            {.min = 0.0,
-             .max = 1e6,
-             .doc = "a reading from here on only means that the force is no smaller"});
+             .doc = "excess over the tolerance, summed up over time, that is a fault"});
   }
 };
 
@@ -48,17 +45,20 @@ struct ForceMatchInput {
   double raw_counts = 0.0;
   double force_N = 0.0;                    // normal, the observer's
   bool in_air = false, on_ground = false;  // surely, and settled; neither: nothing is judged
-  bool learn = true;                       // the sensor is believed
+  bool learn = true;                       // the counts tell zero and gain
 };
 
-/// Whether one foot's counts still mean the momentum observer's force f:  raw = zero + gain f.
+/// Whether one foot's counts mean no more than the momentum observer's force f:
+/// raw = zero + gain f.
 ///
 /// zero is the mean reading in the air, gain the mean of raw − zero over the mean of f on the
 /// ground. Either only ages in its own phase, so that standing for long does not forget the zero,
-/// and either follows slow drift. A jump shows at once, in the air as on the ground, as a force
-/// that the observer does not feel: its impulse is summed up, to either side, less the tolerance.
+/// and either follows slow drift. A jump upwards shows at once, on the ground too, where the word
+/// "contact" is still right: its force less the tolerance is summed up. Counts that mean less are
+/// not judged: either contact is still told right, or it is not, which SensorHealth sees; and the
+/// observer of a nearly stretched leg may feel 40 N too much.
 /// The sensor's dead band is left to gain and tolerance.
-/// Source: [Page1954], two-sided cumulative sum; differs: the deviation is capped.
+/// Source: [Page1954], cumulative sum; differs: the deviation is capped.
 class ForceMatch {
  public:
   ForceMatch(const ForceMatchParams& params, double step_s) noexcept
@@ -75,12 +75,12 @@ class ForceMatch {
     void Add(double sample, double step_s, double constant_s) noexcept;
   };
   void Learn(const ForceMatchInput& in) noexcept;
-  [[nodiscard]] double CalcDifference_N(const ForceMatchInput& in) const noexcept;
+  [[nodiscard]] double CalcExcess_N(const ForceMatchInput& in) const noexcept;
 
   ForceMatchParams params_;
   double step_s_;
   Mean zero_counts_, ground_counts_, ground_force_N_;  // in the air; over zero; the observer's
-  double more_Ns_ = 0.0, less_Ns_ = 0.0;               // than the observer feels
+  double excess_Ns_ = 0.0;                             // by the counts
 };
 
 }  // namespace scoria::controller

@@ -428,9 +428,9 @@ TEST(SensorFaults, OfTheFeet) {
   e = EffectOf(FaultOf(SensorFaultKind::kFootPacked, 25.0));
   EXPECT_EQ(e.with.foot_force_raw, LegArray<double>(40.0, 45.0, 50.0, 55.0));
   SensorFault hard = FaultOf(SensorFaultKind::kFootPacked, -20.0);
-  hard.gain = 0.7;
+  hard.gain = 0.75;
   e = EffectOf(hard);
-  EXPECT_EQ(e.with.foot_force_raw, LegArray<double>(1.0, 8.0, 15.0, 22.0));
+  EXPECT_EQ(e.with.foot_force_raw, LegArray<double>(2.5, 10.0, 17.5, 25.0));
 }
 
 TEST(SensorFaults, StuckFeetKeepTheirCounts) {
