@@ -289,7 +289,8 @@ StageReports Controller::Report() const noexcept {
   const RobotState& s = out_.estimate.state;
   reports.estimate_finite = s.R_WB.allFinite() && s.p_WB.allFinite() && s.v_WB.allFinite();
   reports.v_W = s.v_WB;
-  reports.a_W = s.R_WB * robot_.R_BS * samples_.last().a_WS_S - model_.gravity_mps2() * Vec3::UnitZ();
+  reports.a_W =
+      s.R_WB * robot_.R_BS * samples_.last().a_WS_S - model_.gravity_mps2() * Vec3::UnitZ();
   reports.nis = out_.estimate.nis;
   reports.nis_dof = out_.estimate.nis_dof;
   if (params_.contact.source == ContactChoice::kSensor && robot_.config.has_foot_sensors) {
@@ -317,8 +318,13 @@ void Controller::Supervise() noexcept {
 /// state.
 void Controller::Act(const Transition& transition) noexcept {
   if (transition.fell_back) counters_.Add(CountOf(transition.watch));
-  if (transition.watch == Watch::kEstimator && transition.fell_back)
-    estimator_->Continue(out_.estimate, params_.supervisor.doubt);
+  if (transition.watch == Watch::kEstimator && transition.fell_back) {
+    // A tilt ξ too far turns gravity into the acceleration ξ × g z that the speed does not show.
+    const Vec3 xi_W = Vec3::UnitZ().cross(quality_.contradiction_W()) / model_.gravity_mps2();
+    StateEstimate upright = out_.estimate;
+    upright.state.R_WB = core::ExpSo3(-xi_W) * upright.state.R_WB;
+    estimator_->Continue(upright, params_.supervisor.doubt);
+  }
   if (transition.watch == Watch::kContact)
     contact_->SetChoice(transition.fell_back ? ContactChoice::kHierarchy : params_.contact.source);
 }

@@ -71,8 +71,12 @@ void FootSensor::CloseBucket() noexcept {
       std::min(std::max(reference, *zero_ + params_.noise_counts), params_.max_threshold_counts);
 }
 
+bool SensorHealth::IsSaturated(const HealthInput& in) const noexcept {
+  return in.raw_counts >= params_.saturated_counts;
+}
+
 bool SensorHealth::IsStuck(const HealthInput& in) noexcept {
-  if (in.raw_counts != frozen_counts_) {
+  if (in.raw_counts != frozen_counts_ || IsSaturated(in)) {
     frozen_counts_ = in.raw_counts;
     frozen_s_ = changed_s_ = 0.0;
     return false;
@@ -94,18 +98,32 @@ bool SensorHealth::HasDrifted(const HealthInput& in) noexcept {
   return std::abs(*in.zero_counts - *first_zero_) > params_.drift_counts;
 }
 
+bool SensorHealth::SurelyDown(const HealthInput& in) const noexcept {
+  return in.observer && in.probability > params_.sure;
+}
+
+bool SensorHealth::SurelyUp(const HealthInput& in) const noexcept {
+  return !in.observer && in.probability < 1.0 - params_.sure;
+}
+
 bool SensorHealth::Contradicts(const HealthInput& in) noexcept {
   const bool in_transition = since_observer_s_ <= params_.transition_s;
-  const bool surely_down = in.observer && in.probability > params_.sure;
-  const bool surely_up = !in.observer && in.probability < 1.0 - params_.sure;
   const bool flying = in.foot_speed_mps > params_.moving_mps;
-  const bool contradicts = in.sensor ? surely_up || flying : surely_down && !flying;
+  const bool contradicts = in.sensor ? SurelyUp(in) || flying : SurelyDown(in) && !flying;
   if (!in_transition && contradicts) {
     contradiction_s_ += step_s_;
   } else if (in.sensor == in.observer) {
     contradiction_s_ = std::max(0.0, contradiction_s_ - params_.forgive * step_s_);
   }
   return contradiction_s_ > params_.disagree_s;
+}
+
+bool SensorHealth::Mismatches(const HealthInput& in) noexcept {
+  const bool settled = since_observer_s_ > params_.transition_s;
+  // A sensor that is not believed must come back to what it was.
+  const bool learn = healthy_ && !IsSaturated(in);
+  return !match_.Update(
+      {in.raw_counts, in.force_N, settled && SurelyUp(in), settled && SurelyDown(in), learn});
 }
 
 void SensorHealth::TrackTransitions(const HealthInput& in) noexcept {
@@ -133,7 +151,8 @@ bool SensorHealth::Update(const HealthInput& in) noexcept {
   const bool stuck = IsStuck(in);
   const bool drifted = HasDrifted(in);
   const bool contradicts = Contradicts(in);
-  if (stuck || drifted || contradicts) {
+  const bool mismatches = Mismatches(in);
+  if (stuck || drifted || contradicts || mismatches) {
     healthy_ = false;
     faultless_s_ = 0.0;
     transitions_ = 0;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "controller/estimation/force_match.h"
 #include "core/config/archive.h"
 
 namespace scoria::controller {
@@ -100,12 +101,14 @@ class FootSensor {
 struct HealthParams {
   double stuck_s = 0.1;
   double stuck_force_N = 25.0;
+  double saturated_counts = 1023.0;
   double transition_s = 0.025;
   double sure = 0.75;
   double moving_mps = 0.8;
   double disagree_s = 0.1;
   double forgive = 0.25;
   double drift_counts = 25.0;
+  ForceMatchParams match;
   double recover_s = 3.0;
   int recover_transitions = 6;
   template <class Archive>
@@ -117,6 +120,10 @@ struct HealthParams {
              .max = 1e4,
              .doc = "and means a stuck sensor if the observer's force has become so different "
                     "meanwhile, for longer than a transition"});
+    a.Field("saturated_counts", saturated_counts,
+            {.min = 0.0,
+             .max = 1e6,
+             .doc = "readings from here on may stay the same, and do not tell the gain"});
     a.Field("transition_s", transition_s,
             {.min = 0.0,
              .max = 0.5,
@@ -138,6 +145,7 @@ struct HealthParams {
             {.min = 0.0,
              .max = 1e5,
              .doc = "change of the reading in the air since the start that discredits the sensor"});
+    a.Field("match", match);
     a.Field(
         "recover_s", recover_s,
         {.min = 0.0, .max = 1e4, .doc = "least time without a fault until it is trusted again"});
@@ -162,7 +170,7 @@ struct HealthInput {
 class SensorHealth {
  public:
   SensorHealth(const HealthParams& params, double step_s) noexcept
-      : params_(params), step_s_(step_s) {}
+      : params_(params), step_s_(step_s), match_(params.match, step_s) {}
   /// @returns healthy.
   bool Update(const HealthInput& in) noexcept;
 
@@ -170,6 +178,10 @@ class SensorHealth {
   [[nodiscard]] bool IsStuck(const HealthInput& in) noexcept;
   [[nodiscard]] bool HasDrifted(const HealthInput& in) noexcept;
   [[nodiscard]] bool Contradicts(const HealthInput& in) noexcept;
+  [[nodiscard]] bool Mismatches(const HealthInput& in) noexcept;
+  [[nodiscard]] bool IsSaturated(const HealthInput& in) const noexcept;
+  [[nodiscard]] bool SurelyDown(const HealthInput& in) const noexcept;
+  [[nodiscard]] bool SurelyUp(const HealthInput& in) const noexcept;
   void TrackTransitions(const HealthInput& in) noexcept;
 
   static constexpr double kLongAgo_s = 1e9;
@@ -182,6 +194,7 @@ class SensorHealth {
   bool sensor_ = false, observer_ = false;  // of the last tick
   double since_sensor_s_ = kLongAgo_s, since_observer_s_ = kLongAgo_s;
   double contradiction_s_ = 0.0;
+  ForceMatch match_;
   int transitions_ = 0;
   double faultless_s_ = 0.0;
   bool healthy_ = true;

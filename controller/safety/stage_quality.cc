@@ -29,7 +29,8 @@ double StageQuality::CalcEstimator(const StageReports& in, double dt_s) noexcept
   LowPass(mean_v_W_, in.v_W, window_s, dt_s);
   LowPass(mean_a_W_, in.a_W, window_s, dt_s);
   const Vec3 by_speed = (in.v_W - mean_v_W_) / window_s;  // low pass of its derivative
-  const double by_acceleration = 1.0 - (by_speed - mean_a_W_).norm() / params_.acceleration_mps2;
+  contradiction_W_ = mean_a_W_ - by_speed;
+  const double by_acceleration = 1.0 - contradiction_W_.norm() / params_.acceleration_mps2;
   return std::clamp(by_acceleration, 0.0, 1.0 / std::max(1.0, nis_ratio_));
 }
 

@@ -15,7 +15,7 @@ struct QualityParams {
   double acceleration_window_s = 0.5, acceleration_mps2 = 1.5;
   double load_window_s = 0.5;
   double footing_window_s = 2.0;
-  double mishaps = 6.0, stumble_m = 0.04;
+  double mishaps = 3.0, stumble_m = 0.04;
   double tilt_rad = 0.25;
   template <class Archive>
   void Serialize(Archive& a) {
@@ -24,8 +24,9 @@ struct QualityParams {
             {.min = 0.0, .max = 10.0, .doc = "low pass of the innovations"});
     a.Field("acceleration_window_s", acceleration_window_s,
             {.min = 0.01, .max = 10.0, .doc = "over which acceleration and speed must agree"});
-    a.Field("acceleration_mps2", acceleration_mps2,
-            {.min = 1e-3, .max = 100.0, .doc = "difference between the two that leaves no quality"});
+    a.Field(
+        "acceleration_mps2", acceleration_mps2,
+        {.min = 1e-3, .max = 100.0, .doc = "difference between the two that leaves no quality"});
     a.Field("load_window_s", load_window_s, {.min = 0.0, .max = 10.0, .doc = "low pass"});
     a.Field("footing_window_s", footing_window_s,
             {.min = 0.01, .max = 60.0, .doc = "over which slips and stumbles are forgotten"});
@@ -47,11 +48,11 @@ struct StageReports {
   bool torque_spent = false;    // a motor is at its limit, or the limits had to be dropped
   bool estimate_finite = true;
   Vec3 v_W = Vec3::Zero(), a_W = Vec3::Zero();  // of the trunk: as estimated; by the accelerometer
-  double nis = 0.0;               // of the last correction by the feet
-  int nis_dof = 0;                // 0: there was none
-  double sound_feet_share = 1.0;  // whose chosen contact source is sound
-  double tilt_error_rad = 0.0;    // of the trunk, against the reference
-  std::uint64_t slips = 0;        // since the start
+  double nis = 0.0;                             // of the last correction by the feet
+  int nis_dof = 0;                              // 0: there was none
+  double sound_feet_share = 1.0;                // whose chosen contact source is sound
+  double tilt_error_rad = 0.0;                  // of the trunk, against the reference
+  std::uint64_t slips = 0;                      // since the start
   const LegPhases& legs;
   const LegArray<bool>& contact;  // felt
   LegArray<double> foot_lag_m;    // from where a swing foot should be
@@ -63,6 +64,9 @@ class StageQuality {
   explicit StageQuality(const QualityParams& params) noexcept : params_(params) {}
   [[nodiscard]] const Qualities& Update(const StageReports& reports, double dt_s) noexcept;
   [[nodiscard]] const Qualities& qualities() const noexcept { return qualities_; }
+  /// Acceleration by the accelerometer less that of the estimated speed, both low-passed, m/s², in
+  /// W.
+  [[nodiscard]] const Vec3& contradiction_W() const noexcept { return contradiction_W_; }
   void set_params(const QualityParams& params) noexcept { params_ = params; }
 
  private:
@@ -72,7 +76,7 @@ class StageQuality {
   QualityParams params_;
   Qualities qualities_{1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
   double answered_ = 1.0, nis_ratio_ = 1.0, spare_ = 1.0, mishaps_ = 0.0;
-  Vec3 mean_v_W_ = Vec3::Zero(), mean_a_W_ = Vec3::Zero();
+  Vec3 mean_v_W_ = Vec3::Zero(), mean_a_W_ = Vec3::Zero(), contradiction_W_ = Vec3::Zero();
   bool started_ = false;
   std::uint64_t slips_ = 0;
   LegArray<bool> stumbled_;  // in this swing

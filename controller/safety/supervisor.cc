@@ -19,7 +19,7 @@ std::string_view FallbackName(Watch watch) noexcept {
     case Watch::kBody:
       return "inverse dynamics";
     case Watch::kEstimator:
-      return "wide covariances";
+      return "gravity, wide covariances";
     case Watch::kContact:
       return "the hierarchy";
     case Watch::kFooting:

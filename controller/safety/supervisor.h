@@ -50,10 +50,10 @@ struct SupervisorParams {
   bool enabled = true;
   WatchParams mpc{.least_quality = 0.01, .after_s = 0.0, .recover_s = 0.05};
   WatchParams body{.least_quality = 0.1, .after_s = 0.02, .recover_s = 0.2};
-  WatchParams estimator{.least_quality = 0.8, .after_s = 0.05, .recover_s = 2.0};
+  WatchParams estimator{.least_quality = 0.8, .after_s = 0.12, .recover_s = 2.0};
   WatchParams contact{.least_quality = 0.99, .after_s = 0.05, .recover_s = 3.0};
-  WatchParams footing{.least_quality = 0.3, .after_s = 0.1, .recover_s = 4.0};
-  WatchParams load{.least_quality = 0.7, .after_s = 1.0, .recover_s = 5.0};
+  WatchParams footing{.least_quality = 0.3, .after_s = 0.15, .recover_s = 4.0};
+  WatchParams load{.least_quality = 0.8, .after_s = 1.0, .recover_s = 5.0};
   double careful_speed_share = 0.6, careful_duty = 0.75, careful_lift_m = 0.02;
   double crouch_share = 0.9;
   double doubt = 15.0;
@@ -66,7 +66,8 @@ struct SupervisorParams {
     a.Field("body", body,
             {.doc = "share of ticks answered in time; falls back on inverse dynamics"});
     a.Field("estimator", estimator,
-            {.doc = "fit of innovations and of speed to acceleration; falls back on wide covariances, feet set anew"});
+            {.doc = "fit of innovations and of speed to acceleration; falls back on the "
+                    "tilt that gravity shows, wide covariances and new feet"});
     a.Field("contact", contact,
             {.doc = "share of feet whose chosen source is sound; falls back on the hierarchy"});
     a.Field("footing", footing,

@@ -13,9 +13,6 @@ namespace {
 /// of the better consumer units give.
 constexpr double kGyroPerKelvin_radps = 2.6e-4, kAccelPerKelvin_mps2 = 2e-3;
 
-/// Share of the ground's force that still reaches the sensor through packed soil.
-constexpr double kPackedGain = 0.5;
-
 bool ConcernsLegs(SensorFaultKind kind) {
   switch (kind) {
     case SensorFaultKind::kImuBiasStep:
@@ -28,6 +25,9 @@ bool ConcernsLegs(SensorFaultKind kind) {
       return true;
   }
 }
+
+/// Packed soil may only take force, without pressing.
+bool MayLackMagnitude(SensorFaultKind kind) { return kind == SensorFaultKind::kFootPacked; }
 
 bool HasMagnitude(SensorFaultKind kind) {
   switch (kind) {
@@ -60,7 +60,7 @@ std::string SensorFault::Problem() const {
       return fmt::format("legs: unknown \"{}\"; choices: FL, FR, HL, HR", leg);
   }
   if (!legs.empty() && !ConcernsLegs(kind)) return fmt::format("legs: {} concerns no leg", name);
-  if (HasMagnitude(kind) != (magnitude != 0.0))
+  if (HasMagnitude(kind) != (magnitude != 0.0) && !MayLackMagnitude(kind))
     return fmt::format("magnitude: {} {}", name, HasMagnitude(kind) ? "needs one" : "has none");
   const bool is_share = magnitude > 0.0 && magnitude <= 1.0;
   if (kind == SensorFaultKind::kImuDropout && !is_share)
@@ -128,7 +128,7 @@ void FaultSchedule::ApplyToLeg(const SensorFault& fault, Leg leg, double ramped)
       foot.is_dead = true;
       return;
     case SensorFaultKind::kFootPacked:
-      foot.gain *= kPackedGain;
+      foot.gain *= fault.gain;
       foot.load_N += fault.magnitude;
       return;
     case SensorFaultKind::kEncoderOffset:

@@ -14,10 +14,10 @@
 namespace scoria::sim {
 
 enum class SensorFaultKind {
-  kFootDrift,          // counts, reached after ramp_s
-  kFootStuck,          // the counts stay where they are; no magnitude
-  kFootDropout,        // 0 counts; no magnitude
-  kFootPacked,         // N: soil in the foot presses by this and takes half of what the ground does
+  kFootDrift,    // counts, reached after ramp_s
+  kFootStuck,    // the counts stay where they are; no magnitude
+  kFootDropout,  // 0 counts; no magnitude
+  kFootPacked,  // N: soil in the foot presses by this and lets through `gain` of the ground's force
   kImuBiasStep,        // rad/s, on every axis of the gyro
   kImuTemperature,     // K, reached after ramp_s; moves every bias of gyro and accelerometer
   kEncoderOffset,      // rad, on every angle of the leg; the velocity stays right
@@ -49,6 +49,7 @@ struct SensorFault {
   std::vector<std::string> legs;
   double magnitude = 0.0;
   double ramp_s = 30.0;
+  double gain = 0.5;
   template <class Archive>
   void Serialize(Archive& a) {
     a.Required("at_s", at_s, {.min = 0.0, .doc = "since the robot stands"});
@@ -63,6 +64,10 @@ struct SensorFault {
             {.min = 0.001,
              .max = 1e6,
              .doc = "foot_drift, imu_temperature, torque_temperature: time to full magnitude"});
+    a.Field("gain", gain,
+            {.min = 0.0,
+             .max = 10.0,
+             .doc = "foot_packed: share of the ground's force that still reaches the sensor"});
   }
   [[nodiscard]] std::string Problem() const;
   bool operator==(const SensorFault&) const = default;

@@ -192,12 +192,15 @@ INSTANTIATE_TEST_SUITE_P(Files, OtherRobot,
 // Foot sensors fail in the middle of rough ground: the hierarchy turns to the momentum observer for
 // just those feet within half a second, says so, and the robot walks on.
 TEST(FootSensorFault, HierarchySwitchesWithinHalfASecondAndTheRobotWalksOn) {
-  for (const char* kind : {"foot_dropout", "foot_stuck"}) {
+  double at_s = 6.0;
+  for (const char* kind : {"foot_dropout", "foot_stuck", "foot_packed, magnitude: 60"}) {
     for (const int feet : {1, 2, 4}) {
       const char* legs = feet == 1 ? "[FL]" : feet == 2 ? "[FL, HR]" : "[]";
       const Scenario scenario = test::LoadScenario(
-          "rough", {fmt::format("sensor_faults=[{{at_s: 6, kind: {}, legs: {}}}]", kind, legs),
-                    "duration_s=10"});
+          "rough",
+          {fmt::format("sensor_faults=[{{at_s: {}, kind: {}, legs: {}}}]", at_s, kind, legs),
+           "duration_s=11"});
+      at_s += 0.1;  // another phase of the gait
       const core::RobotDescription robot = core::LoadRobot(scenario.robot);
       const terrains::Heightfield ground =
           terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);

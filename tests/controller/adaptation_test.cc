@@ -351,7 +351,7 @@ TEST(HandOver, IsSmoothAndEndsAtTheEstimate) {
 
 TEST(HandOver, WaitsForTheCovariance) {
   KfPlusParams params = Untared();
-  params.hand_over.max_sigma_kg = 1e-6;
+  params.hand_over.max_sigma_kg = params.hand_over.max_sigma_kgm = 1e-6;
   Standing robot(params);
   robot.SetPayload(5.0, kPlace);
   for (int i = 0; i < Ticks(5.0); ++i) ASSERT_FALSE(robot.Step().changed);

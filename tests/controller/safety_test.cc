@@ -65,6 +65,21 @@ TEST(OutputGuard, TurnsAJointBackAtItsLimitButLetsItComeIn) {
   EXPECT_EQ(counters[Count::kJointLimit], 1u);
 }
 
+TEST(OutputGuard, KeepsAKneeFromFoldingThroughStraight) {
+  const core::RobotDescription robot = core::LoadRobot(core::ReadConfig<core::RobotConfig>(
+      core::LoadConfig(test::SourcePath("robots/b12/b12.yaml"))));
+  const LegArray<Vec3> standing(Vec3(0.0, 0.75, -1.5));
+  OutputGuard guard({}, robot, standing);
+  Counters counters;
+  RobotState state = test::StandingState();
+  state.q = standing;
+  state.q[Leg::kFL].z() = -0.2;  // far within the URDF's limits
+  const JointCommand safe = guard.Check(Torques(5.0), state, counters);
+  EXPECT_LT(safe.kp_Nm_per_rad[Leg::kFL].z() * (safe.q[Leg::kFL].z() - state.q[Leg::kFL].z()), 0.0);
+  EXPECT_EQ(counters[Count::kJointLimit], 1u);
+  EXPECT_EQ(guard.Check(Torques(-5.0), state, counters).tau_Nm[Leg::kFL].z(), -5.0);
+}
+
 TEST(StandInPlan, SharesTheWeightAmongTheFeetThatStand) {
   const LegArray<bool> contact(true, false, true, true);
   const ForcePlan plan = StandInPlan(150.0, contact, BodyReference{}, 0.05);

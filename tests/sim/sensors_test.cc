@@ -427,6 +427,10 @@ TEST(SensorFaults, OfTheFeet) {
   EXPECT_EQ(e.with.foot_force_raw, LegArray<double>(30.0, 0.0, 50.0, 0.0));
   e = EffectOf(FaultOf(SensorFaultKind::kFootPacked, 25.0));
   EXPECT_EQ(e.with.foot_force_raw, LegArray<double>(40.0, 45.0, 50.0, 55.0));
+  SensorFault hard = FaultOf(SensorFaultKind::kFootPacked, -20.0);
+  hard.gain = 0.75;
+  e = EffectOf(hard);
+  EXPECT_EQ(e.with.foot_force_raw, LegArray<double>(2.5, 10.0, 17.5, 25.0));
 }
 
 TEST(SensorFaults, StuckFeetKeepTheirCounts) {
@@ -505,6 +509,7 @@ TEST(SensorFaults, MistakesAreNamed) {
             "legs: imu_nan concerns no leg");
   EXPECT_EQ(FaultOf(SensorFaultKind::kFootDrift, 0.0).Problem(), "magnitude: foot_drift needs one");
   EXPECT_EQ(FaultOf(SensorFaultKind::kFootStuck, 2.0).Problem(), "magnitude: foot_stuck has none");
+  EXPECT_EQ(FaultOf(SensorFaultKind::kFootPacked, 0.0).Problem(), "");
   EXPECT_EQ(FaultOf(SensorFaultKind::kImuDropout, 1.5).Problem(),
             "magnitude: imu_dropout needs a share in (0, 1]");
 }

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One scenario per transition of the supervisor: the event is there, the robot walks on and the
+// stage comes back; switched off, there is no event.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "app/runner.h"
+#include "terrains/generator.h"
+#include "tests/support/robots.h"
+
+namespace scoria::app {
+namespace {
+
+struct Outcome {
+  int falls = 0;
+  std::vector<std::string> events;  // of the supervisor
+  [[nodiscard]] bool Has(const std::string& beginning) const {
+    return std::any_of(events.begin(), events.end(),
+                       [&](const std::string& e) { return e.rfind(beginning, 0) == 0; });
+  }
+};
+
+Outcome Walk(const std::string& watch, bool enabled) {
+  const Scenario scenario = test::LoadScenario(
+      "supervisor/" + watch, {fmt::format("controller.supervisor.enabled={}", enabled)});
+  const core::RobotDescription robot = core::LoadRobot(scenario.robot);
+  const terrains::Heightfield ground =
+      terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);
+  Outcome out;
+  EpisodeSinks sinks;
+  sinks.on_event = [&](double, const std::string& kind, const std::string& detail) {
+    if (kind == "supervisor") out.events.push_back(detail);
+  };
+  out.falls = RunEpisode(scenario, robot, ground, sinks).falls;
+  return out;
+}
+
+class SupervisorScenario : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(SupervisorScenario, FallsBackWithItsReasonAndTheRobotWalksOn) {
+  const std::string watch = GetParam();
+  const Outcome on = Walk(watch, true);
+  EXPECT_EQ(on.falls, 0);
+  EXPECT_TRUE(on.Has(watch + ": falls back on ")) << fmt::format("{}", fmt::join(on.events, "; "));
+  // The estimator's bias stays wrong for the rest of the walk.
+  EXPECT_EQ(on.Has(watch + ": comes back"), watch != "estimator");
+  EXPECT_TRUE(Walk(watch, false).events.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Watches, SupervisorScenario,
+                         ::testing::Values("mpc", "body", "estimator", "contact", "footing",
+                                           "load"),
+                         [](const auto& test) { return std::string(test.param); });
+
+}  // namespace
+}  // namespace scoria::app
