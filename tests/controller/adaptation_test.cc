@@ -108,11 +108,18 @@ TEST(ForgettingLeastSquares, CovarianceStaysBoundedWithoutExcitation) {
 
 // --- A robot that stands still under a payload --------------------------------------------------
 
-/// The Go2 at rest, tilted and turned, and what its sensors and its observer say of a payload.
+core::RobotDescription Go2OnFeet(double radius_m) {
+  core::RobotDescription robot = test::Go2();
+  for (const Leg leg : kLegs) robot.legs[leg].foot_radius_m = radius_m;
+  return robot;
+}
+
+/// The Go2 at rest, tilted as the ground and turned, and what its sensors and its observer say of a
+/// payload. Its feet are points unless they are given a radius.
 class Standing {
  public:
-  explicit Standing(const AdapterParams& params)
-      : robot_(test::Go2()),
+  explicit Standing(const AdapterParams& params, double foot_radius_m = 0.0)
+      : robot_(Go2OnFeet(foot_radius_m)),
         model_(robot_, kGravity_mps2),
         adapter_(MakeModelAdapter(params, robot_, kGravity_mps2)),
         rng_(3, 0, core::Stream::kSensor) {
@@ -131,15 +138,20 @@ class Standing {
         (wb_.mass_kg * (wb_.p_WC - state_.p_WB) + mass_kg * (state_.R_WB * p_BP)) / mass_kg_;
     p_BC_ = state_.R_WB.transpose() * c_W;
     Eigen::Matrix<double, 3, 4> A;
+    const auto p_FK_W = [this](Leg leg) {
+      return Vec3(-robot_.legs[leg].foot_radius_m * state_.R_WB.col(2));
+    };
     for (const Leg leg : kLegs) {
-      const Vec3& p = wb_.p_BF_W[leg];
+      const Vec3 p = wb_.p_BF_W[leg] + p_FK_W(leg);
       A.col(static_cast<Eigen::Index>(leg)) << 1.0, p.x(), p.y();
     }
     const Vec3 b = mass_kg_ * kGravity_mps2 * Vec3(1.0, c_W.x(), c_W.y());
     const Eigen::Vector4d f = A.transpose() * (A * A.transpose()).inverse() * b;
     for (const Leg leg : kLegs) {
-      force_[leg] = Vec3(0.0, 0.0, f[static_cast<Eigen::Index>(leg)]);
-      z_.tau_Nm[leg] = -wb_.J_ll[leg].transpose() * force_[leg];
+      const Vec3 f_K_W(0.0, 0.0, f[static_cast<Eigen::Index>(leg)]);
+      const Mat3 J_K = wb_.J_ll[leg] - core::Skew(p_FK_W(leg)) * wb_.Jw_ll[leg];
+      z_.tau_Nm[leg] = -J_K.transpose() * f_K_W;
+      force_[leg] = -wb_.J_ll[leg].transpose().inverse() * z_.tau_Nm[leg];  // as if at F
     }
   }
 
@@ -168,7 +180,7 @@ class Standing {
   bool at_work = true;
 
  private:
-  const core::RobotDescription& robot_;
+  core::RobotDescription robot_;
   core::WholeBodyModel model_;
   core::WholeBody wb_;
   RobotState state_;
@@ -229,6 +241,16 @@ TEST(AdaptationKf, WithoutAccelerationTheTrunkIsAtRest) {
     const double expected_kg = acceleration ? robot.mass_kg() / 1.1 : robot.mass_kg();
     EXPECT_NEAR(robot.Run(30.0).mass_kg, expected_kg, 0.02);
   }
+}
+
+/// On a slope the ground pushes along itself, at the foot's sole: read at its centre, that is mass.
+TEST(KfPlus, ForcesActAtTheSoleOfTheFoot) {
+  Standing robot(Untared(), 0.022);
+  robot.SetPayload(4.0, kPlace);
+  const Adaptation out = robot.Run(30.0);
+  EXPECT_NEAR(out.mass_kg, robot.mass_kg(), 0.01);
+  EXPECT_NEAR(out.p_BC.x(), robot.p_BC().x(), 1e-4);
+  EXPECT_NEAR(out.p_BC.y(), robot.p_BC().y(), 1e-4);
 }
 
 TEST(ModelAdapter, NoneStaysNominal) {
