@@ -72,6 +72,13 @@ std::string MetresPerFall(const RateEstimate& falls) {
                      1.0 / falls.interval.high, 1.0 / falls.interval.low);
 }
 
+std::string FormatDifference(const MeanEstimate& e, double scale, int digits) {
+  if (e.count == 0) return "–";
+  if (e.count == 1) return fmt::format("{:.{}f}", scale * e.mean, digits);
+  return fmt::format("{:+.{}f} (95 %: {:+.{}f} to {:+.{}f})", scale * e.mean, digits,
+                     scale * e.interval.low, digits, scale * e.interval.high, digits);
+}
+
 Cell PoolCell(const CampaignResults& results, const std::string& arm,
               const std::vector<std::string>& point) {
   Cell cell;

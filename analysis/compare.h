@@ -53,6 +53,10 @@ struct Comparison {
 /// "133.5 m (95 %: 37 to 1102 m)", or "> 49 m (no fall in 180 m)".
 [[nodiscard]] std::string MetresPerFall(const RateEstimate& falls);
 
+/// "-0.52 (95 %: -0.61 to -0.43)", the mean alone for a single value, a dash for none.
+/// @param scale to the unit shown.
+[[nodiscard]] std::string FormatDifference(const MeanEstimate& e, double scale, int digits);
+
 /// Every arm at every point of the sweep.
 [[nodiscard]] std::vector<Cell> AllCells(const CampaignResults& results);
 

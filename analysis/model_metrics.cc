@@ -62,6 +62,17 @@ ModelSummary SummariseModel(const std::vector<ModelInterval>& intervals) {
   return s;
 }
 
+void ModelAccumulator::Sums::Add(double mass_error_kg, double com_x_error_m,
+                                 double com_y_error_m) noexcept {
+  ++rows;
+  error_kg += mass_error_kg;
+  error_kg2 += mass_error_kg * mass_error_kg;
+  com_x_m += com_x_error_m;
+  com_y_m += com_y_error_m;
+  com_x_m2 += com_x_error_m * com_x_error_m;
+  com_y_m2 += com_y_error_m * com_y_error_m;
+}
+
 void ModelAccumulator::AddRow(const core::LogRow& row) {
   const bool at_work = row.operating && !row.fallen;
   const bool learned = HasLearnedModel(row);
@@ -102,7 +113,7 @@ void ModelAccumulator::Open(const core::LogRow& row, double change_s, double ste
   interval_.mass_kg = row.total_mass_kg;
   interval_.step_kg = step_kg;
   change_s_ = change_s;
-  settled_ = {};
+  settled_ = late_ = {};
   all_used_kg_ = 0.0;
   all_used_rows_ = 0;
 }
@@ -117,19 +128,16 @@ void ModelAccumulator::Judge(const core::LogRow& row) noexcept {
   if (!HasLearnedModel(row)) return;
   ++interval_.rows;
   const double error_kg = row.learned_mass_kg - row.total_mass_kg;
+  const double com_x_m = row.learned_p_BC_m[0] - row.p_BC_m[0];
+  const double com_y_m = row.learned_p_BC_m[1] - row.p_BC_m[1];
+  if (row.time_s - change_s_ >= kLate_s - kRounding_s) late_.Add(error_kg, com_x_m, com_y_m);
   interval_.settled = std::abs(error_kg) <= Margin(interval_.step_kg);
   if (!interval_.settled) {
     interval_.settling_s = row.time_s - change_s_;
     settled_ = {};
     return;
   }
-  const double com_x_m = row.learned_p_BC_m[0] - row.p_BC_m[0];
-  const double com_y_m = row.learned_p_BC_m[1] - row.p_BC_m[1];
-  ++settled_.rows;
-  settled_.error_kg += error_kg;
-  settled_.error_kg2 += error_kg * error_kg;
-  settled_.com_x_m2 += com_x_m * com_x_m;
-  settled_.com_y_m2 += com_y_m * com_y_m;
+  settled_.Add(error_kg, com_x_m, com_y_m);
   if (used) {
     settled_.used_kg += used_error_kg;
     ++settled_.used_rows;
@@ -151,6 +159,15 @@ void ModelAccumulator::Close(double end_s) {
   } else {
     i.settling_s = end_s - change_s_;
   }
+  if (late_.rows > 0) {
+    const auto n = static_cast<double>(late_.rows);
+    i.late_rows = late_.rows;
+    i.late_bias_kg = late_.error_kg / n;
+    i.late_noise_kg =
+        std::sqrt(std::max(0.0, late_.error_kg2 / n - i.late_bias_kg * i.late_bias_kg));
+    i.late_com_x_bias_m = late_.com_x_m / n;
+    i.late_com_y_bias_m = late_.com_y_m / n;
+  }
   const bool of_all = !i.settled || settled_.used_rows == 0;
   i.used_rows = of_all ? all_used_rows_ : settled_.used_rows;
   const double used_kg = of_all ? all_used_kg_ : settled_.used_kg;
@@ -163,9 +180,12 @@ ModelMetrics ModelAccumulator::Finish() {
   return metrics_;
 }
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ModelInterval, start_s, duration_s, mass_kg, step_kg, settling_s,
-                                   settled, rows, bias_kg, rmse_kg, com_x_rmse_m, com_y_rmse_m,
-                                   used_rows, used_bias_kg)
+// With default: results from before the late values are read, too.
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(ModelInterval, start_s, duration_s, mass_kg,
+                                                step_kg, settling_s, settled, rows, bias_kg,
+                                                rmse_kg, com_x_rmse_m, com_y_rmse_m, late_rows,
+                                                late_bias_kg, late_noise_kg, late_com_x_bias_m,
+                                                late_com_y_bias_m, used_rows, used_bias_kg)
 
 void to_json(nlohmann::json& j, const ModelMetrics& m) {
   j = {{"present", m.present}, {"intervals", m.intervals}};

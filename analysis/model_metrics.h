@@ -14,6 +14,9 @@ namespace scoria::analysis {
 /// start.
 [[nodiscard]] bool HasLearnedModel(const core::LogRow& row) noexcept;
 
+/// After this all estimators here have forgotten what was carried before.
+inline constexpr double kLate_s = 10.0;
+
 /// A stretch with one true mass, and what was learned of it. Errors are learned minus true.
 struct ModelInterval {
   double start_s = 0.0;  // where the change of mass had ended, or learning began
@@ -25,6 +28,10 @@ struct ModelInterval {
   std::uint64_t rows = 0;   // judged: learned, at work and upright
   double bias_kg = 0.0, rmse_kg = 0.0;            // of the settled part
   double com_x_rmse_m = 0.0, com_y_rmse_m = 0.0;  // of the settled part
+  // Of the judged rows from kLate_s after the change on, settled or not.
+  std::uint64_t late_rows = 0;
+  double late_bias_kg = 0.0, late_noise_kg = 0.0;           // mean, standard deviation
+  double late_com_x_bias_m = 0.0, late_com_y_bias_m = 0.0;  // means
   std::uint64_t used_rows = 0;
   double used_bias_kg =
       0.0;  // mean of used minus true, of the settled part or for want of it of all
@@ -60,7 +67,9 @@ class ModelAccumulator {
  private:
   struct Sums {
     std::uint64_t rows = 0, used_rows = 0;
-    double error_kg = 0.0, error_kg2 = 0.0, com_x_m2 = 0.0, com_y_m2 = 0.0, used_kg = 0.0;
+    double error_kg = 0.0, error_kg2 = 0.0, com_x_m = 0.0, com_y_m = 0.0, com_x_m2 = 0.0,
+           com_y_m2 = 0.0, used_kg = 0.0;
+    void Add(double mass_error_kg, double com_x_error_m, double com_y_error_m) noexcept;
   };
   void FollowMass(const core::LogRow& row);
   void Open(const core::LogRow& row, double change_s, double step_kg) noexcept;
@@ -72,6 +81,7 @@ class ModelAccumulator {
   bool changed_ = false;  // the mass did, before the open interval
   ModelInterval interval_;
   Sums settled_;  // since the error was last outside the margin
+  Sums late_;
   double all_used_kg_ = 0.0;
   std::uint64_t all_used_rows_ = 0;
   double change_s_ = 0.0;        // beginning of the change before the open interval

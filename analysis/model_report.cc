@@ -178,23 +178,16 @@ TrackingDifference CompareArms(const CampaignResults& results, const std::string
   return d;
 }
 
-/// "-0.52 (95 %: -0.61 to -0.43)".
-std::string Difference(const MeanEstimate& e, double scale, int digits) {
-  if (e.count < 2) return Number(e.count > 0, scale * e.mean, digits);
-  return fmt::format("{:+.{}f} (95 %: {:+.{}f} to {:+.{}f})", scale * e.mean, digits,
-                     scale * e.interval.low, digits, scale * e.interval.high, digits);
-}
-
 Row TrackingRow(const CampaignResults& results, const TrackingDifference& d) {
   return {PointName(results.axes, d.point),
           fmt::format("{} against {}", d.arm, d.baseline),
           std::to_string(d.height_difference_m.count),
           fmt::format("{:.1f} / {:.1f}", 1e3 * d.height_m, 1e3 * d.baseline_height_m),
-          Difference(d.height_difference_m, 1e3, 1),
+          FormatDifference(d.height_difference_m, 1e3, 1),
           fmt::format("{:.2f} / {:.2f}", kDegrees * d.roll_rad, kDegrees * d.baseline_roll_rad),
-          Difference(d.roll_difference_rad, kDegrees, 2),
+          FormatDifference(d.roll_difference_rad, kDegrees, 2),
           fmt::format("{:.2f} / {:.2f}", kDegrees * d.pitch_rad, kDegrees * d.baseline_pitch_rad),
-          Difference(d.pitch_difference_rad, kDegrees, 2)};
+          FormatDifference(d.pitch_difference_rad, kDegrees, 2)};
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/bias_budget.h"
 #include "analysis/compare.h"
 #include "analysis/estimation_report.h"
 #include "analysis/figures.h"
@@ -313,6 +314,7 @@ fs::path WriteReport(const fs::path& folder) {
   AddContactDetection(results, cells, page);
   AddFigures(ContactFigures(results), figures, page);
   AddModelAdaptation(results, cells, page);
+  AddBiasBudget(results, page);
   AddFigures(ModelFigures(results), figures, page);
   AddAdaptedTracking(results, page);
   AddEnergy(results, cells, page);

@@ -83,8 +83,9 @@ CampaignResults LoadResults(const fs::path& folder) {
   j.at("name").get_to(results.name);
   j.at("arms").get_to(results.arms);
   for (const json& axis : j.at("sweep")) {
-    results.axes.push_back(
-        {axis.at("key"), axis.at("label"), axis.at("values").get<std::vector<std::string>>()});
+    results.axes.push_back({axis.at("key"), axis.at("label"),
+                            axis.at("values").get<std::vector<std::string>>(),
+                            axis.value("baseline", "")});  // not in older results
   }
   for (const json& e : j.at("episodes")) {
     EpisodeRecord episode;

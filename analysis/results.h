@@ -29,6 +29,7 @@ struct EpisodeRecord {
 struct Axis {
   std::string key, label;
   std::vector<std::string> values;
+  std::string baseline;  // value that the others are compared with; empty: none
   [[nodiscard]] bool IsNumeric() const;
 };
 

@@ -54,7 +54,7 @@ double Evaluate(const Eigen::Vector3d& c, double x) {
 double SampleQuantile(std::vector<double> values, double share) { return Quantile(values, share); }
 
 MeanEstimate EstimateMean(std::span<const double> values, double confidence) {
-  MeanEstimate e{values.size(), kNan, {-kInfinity, kInfinity}};
+  MeanEstimate e{values.size(), kNan, {-kInfinity, kInfinity}, 0.0};
   if (values.empty()) return e;
   const auto n = static_cast<double>(values.size());
   e.mean = 0.0;
@@ -63,7 +63,8 @@ MeanEstimate EstimateMean(std::span<const double> values, double confidence) {
   double squares = 0.0;
   for (const double v : values) squares += (v - e.mean) * (v - e.mean);
   const boost::math::students_t_distribution<double> t(n - 1.0);
-  const double half = quantile(t, 0.5 + 0.5 * confidence) * std::sqrt(squares / (n - 1.0) / n);
+  e.deviation = std::sqrt(squares / (n - 1.0));
+  const double half = quantile(t, 0.5 + 0.5 * confidence) * e.deviation / std::sqrt(n);
   e.interval = {e.mean - half, e.mean + half};
   return e;
 }

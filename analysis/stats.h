@@ -16,11 +16,13 @@ struct Interval {
 /// @param values not empty. @param share in [0, 1].
 [[nodiscard]] double SampleQuantile(std::vector<double> values, double share);
 
-/// Mean of paired differences with Student's interval; (-inf, inf) for fewer than two pairs.
+/// Mean with Student's interval, (-inf, inf) for fewer than two values, and their standard
+/// deviation, 0 for fewer than two.
 struct MeanEstimate {
   std::size_t count = 0;
   double mean = 0.0;
   Interval interval;
+  double deviation = 0.0;
 };
 [[nodiscard]] MeanEstimate EstimateMean(std::span<const double> values, double confidence = 0.95);
 

@@ -46,8 +46,8 @@ const ConfigNode& Require(const ConfigNode& node, const char* key) {
   return *child;
 }
 
-CampaignArm ReadArm(const ConfigNode& node, std::size_t index) {
-  const std::string path = fmt::format("arms[{}]", index);
+/// A name and what it changes.
+CampaignArm ReadArm(const ConfigNode& node, const std::string& path) {
   CampaignArm arm;
   for (const ConfigNode::Entry& entry : node.entries) {
     if (entry.key == "name") {
@@ -66,31 +66,56 @@ CampaignArm ReadArm(const ConfigNode& node, std::size_t index) {
   return arm;
 }
 
+void AddValue(const ConfigNode& value, CampaignAxis& axis) {
+  ConfigNode set;
+  set.kind = ConfigNode::Kind::kMap;
+  core::SetAt(set, axis.key, value);
+  axis.sets.push_back(std::move(set));
+  axis.names.push_back(value.kind == ConfigNode::Kind::kScalar ? value.scalar
+                                                               : core::EmitYaml(value));
+}
+
 CampaignAxis ReadAxis(const ConfigNode& node, std::size_t index) {
   const std::string path = fmt::format("sweep[{}]", index);
   CampaignAxis axis;
   for (const ConfigNode::Entry& entry : node.entries) {
-    if (entry.key == "key") core::ConfigReader::Read(entry.value, path + ".key", axis.key);
-    if (entry.key == "label") core::ConfigReader::Read(entry.value, path + ".label", axis.label);
-    if (entry.key != "key" && entry.key != "label" && entry.key != "values") {
+    if (entry.key == "key") {
+      core::ConfigReader::Read(entry.value, path + ".key", axis.key);
+    } else if (entry.key == "label") {
+      core::ConfigReader::Read(entry.value, path + ".label", axis.label);
+    } else if (entry.key == "baseline") {
+      core::ConfigReader::Read(entry.value, path + ".baseline", axis.baseline);
+    } else if (entry.key != "values" && entry.key != "variants") {
       throw ConfigError(entry.key_origin, path + "." + entry.key,
-                        "unknown key; known here: key, label, values");
+                        "unknown key; known here: key, label, baseline, values, variants");
     }
   }
-  if (axis.key.empty())
+  const ConfigNode *values = node.Find("values"), *variants = node.Find("variants");
+  if (variants != nullptr && (values != nullptr || !axis.key.empty()))
+    throw ConfigError(variants->origin, path + ".variants", "stands in place of key and values");
+  if (variants != nullptr && axis.label.empty())
+    throw ConfigError(node.origin, path + ".label", "is missing; variants need one");
+  if (variants == nullptr && axis.key.empty())
     throw ConfigError(node.origin, path + ".key", "is missing and has no default");
-  if (const ConfigNode* values = node.Find("values");
-      values != nullptr && values->kind == ConfigNode::Kind::kSequence) {
-    axis.values = values->items;
-  }
-  if (axis.values.empty())
-    throw ConfigError(node.origin, path + ".values", "must list at least one value");
-  for (const ConfigNode& value : axis.values) {
-    std::string name =
-        value.kind == ConfigNode::Kind::kScalar ? value.scalar : core::EmitYaml(value);
-    axis.names.push_back(name);
-  }
   if (axis.label.empty()) axis.label = axis.key;
+  const ConfigNode* list = variants != nullptr ? variants : values;
+  const std::string list_path = path + (variants != nullptr ? ".variants" : ".values");
+  if (list == nullptr || list->kind != ConfigNode::Kind::kSequence || list->items.empty())
+    throw ConfigError(node.origin, list_path, "must list at least one");
+  for (std::size_t i = 0; i < list->items.size(); ++i) {
+    if (variants == nullptr) {
+      AddValue(list->items[i], axis);
+      continue;
+    }
+    CampaignArm variant = ReadArm(list->items[i], fmt::format("{}[{}]", list_path, i));
+    axis.sets.push_back(std::move(variant.set));
+    axis.names.push_back(std::move(variant.name));
+  }
+  if (axis.key.empty()) axis.key = axis.label;
+  if (!axis.baseline.empty() && !std::ranges::count(axis.names, axis.baseline))
+    throw ConfigError(node.Find("baseline")->origin, path + ".baseline",
+                      fmt::format("{}: is none of the {}", axis.baseline,
+                                  variants != nullptr ? "variants" : "values"));
   return axis;
 }
 
@@ -106,7 +131,7 @@ struct Job {
 void AddJobs(const Campaign& campaign, const CampaignArm& arm, std::vector<std::size_t>& point,
              std::vector<Job>& jobs) {
   if (point.size() < campaign.sweep.size()) {
-    for (std::size_t i = 0; i < campaign.sweep[point.size()].values.size(); ++i) {
+    for (std::size_t i = 0; i < campaign.sweep[point.size()].names.size(); ++i) {
       point.push_back(i);
       AddJobs(campaign, arm, point, jobs);
       point.pop_back();
@@ -115,8 +140,10 @@ void AddJobs(const Campaign& campaign, const CampaignArm& arm, std::vector<std::
   }
   ConfigNode node = campaign.scenario;
   if (arm.set.kind == ConfigNode::Kind::kMap) core::MergeConfig(node, arm.set);
-  for (std::size_t i = 0; i < point.size(); ++i)
-    core::SetAt(node, campaign.sweep[i].key, campaign.sweep[i].values[point[i]]);
+  for (std::size_t i = 0; i < point.size(); ++i) {
+    const ConfigNode& set = campaign.sweep[i].sets[point[i]];
+    if (set.kind == ConfigNode::Kind::kMap) core::MergeConfig(node, set);
+  }
   for (int k = 0; k < campaign.seeds; ++k) {
     Scenario scenario = core::ReadConfig<Scenario>(node);
     Job job;
@@ -195,7 +222,10 @@ void WriteIndex(const Campaign& campaign, const std::vector<Job>& jobs, const fs
                           {"episodes", nlohmann::json::array()}};
   for (const CampaignArm& arm : campaign.arms) index["arms"].push_back(arm.name);
   for (const CampaignAxis& axis : campaign.sweep) {
-    index["sweep"].push_back({{"key", axis.key}, {"label", axis.label}, {"values", axis.names}});
+    index["sweep"].push_back({{"key", axis.key},
+                              {"label", axis.label},
+                              {"values", axis.names},
+                              {"baseline", axis.baseline}});
   }
   for (const Job& job : jobs) {
     index["episodes"].push_back(
@@ -217,7 +247,7 @@ Campaign LoadCampaign(const fs::path& file, const std::vector<std::string>& over
       throw ConfigError(list->origin, key, "must be a list, one \"- \" per entry");
   }
   for (std::size_t i = 0; i < arms.items.size(); ++i)
-    campaign.arms.push_back(ReadArm(arms.items[i], i));
+    campaign.arms.push_back(ReadArm(arms.items[i], fmt::format("arms[{}]", i)));
   if (campaign.arms.empty()) throw ConfigError(arms.origin, "arms", "must list at least one arm");
   for (std::size_t i = 0; sweep != nullptr && i < sweep->items.size(); ++i) {
     campaign.sweep.push_back(ReadAxis(sweep->items[i], i));

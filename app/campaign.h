@@ -16,11 +16,12 @@ struct CampaignArm {
   core::ConfigNode set;
 };
 
-/// One swept key of the scenario; the arms cross its values.
+/// One swept key of the scenario, or variants of several keys; the arms cross them.
 struct CampaignAxis {
-  std::string key, label;
-  std::vector<core::ConfigNode> values;
-  std::vector<std::string> names;  // of the values, as the file writes them
+  std::string key, label;              // a list of variants has its label for a key
+  std::vector<core::ConfigNode> sets;  // what each value changes in the scenario
+  std::vector<std::string> names;      // of the values, as the file writes them
+  std::string baseline;                // name that the report compares the others with, or empty
 };
 
 /// arms x sweep x seeds over one scenario. Arms share seeds, so that they walk the same ground

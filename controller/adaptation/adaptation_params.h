@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <string_view>
+#include <utility>
 #include <variant>
 
 #include "core/config/archive.h"
@@ -38,10 +41,20 @@ struct NoAdaptationParams {
   void Serialize(Archive&) {}
 };
 
+/// What the torques of a leg tell of the force on its foot.
+enum class LegForces { kMassless, kWeight, kObserver };
+constexpr std::array<std::pair<LegForces, std::string_view>, 3> EnumNames(LegForces) {
+  return {{{LegForces::kMassless, "massless"},
+           {LegForces::kWeight, "weight"},
+           {LegForces::kObserver, "observer"}}};
+}
+
 /// The paper's Kalman filter; its covariances are not published.
 struct AdaptationKfParams {
   static constexpr const char* kType = "kf";
   double rate_Hz = 100.0;
+  LegForces leg_forces = LegForces::kMassless;
+  bool acceleration = true;
   double walk_kg_per_sqrts = 0.2, walk_kgm_per_sqrts = 0.02;
   double force_N = 30.0, moment_Nm = 6.0;
   double initial_kg = 2.0, initial_kgm = 0.2;
@@ -49,6 +62,11 @@ struct AdaptationKfParams {
   template <class Archive>
   void Serialize(Archive& a) {
     a.Field("rate_Hz", rate_Hz, {.min = 1.0, .max = 1000.0});
+    a.Field("leg_forces", leg_forces,
+            {.doc = "massless: the paper's J^-T tau; weight: less what holds the legs at rest; "
+                    "observer: the momentum observer's, less their motion and friction, too"});
+    a.Field("acceleration", acceleration,
+            {.doc = "false: the paper's balance with the trunk as if it did not accelerate"});
     a.Field("walk_kg_per_sqrts", walk_kg_per_sqrts,
             {.min = 0.0, .max = 100.0, .doc = "random walk of the mass"});
     a.Field("walk_kgm_per_sqrts", walk_kgm_per_sqrts,

@@ -37,18 +37,30 @@ AdaptationKf::AdaptationKf(const AdaptationKfParams& params, const core::RobotDe
   out_.tared = true;
 }
 
+/// tau acts from trunk to foot, so the ground's force on the robot is opposite.
+Vec3 AdaptationKf::CalcFootForce_W(Leg leg, const AdapterInput& in) const noexcept {
+  if (params_.leg_forces == LegForces::kObserver) return in.contact.f_F_W[leg];
+  Vec3 tau_Nm = in.z.tau_Nm[leg];
+  if (params_.leg_forces == LegForces::kWeight) {
+    // The linear rows of H_Bl are the leg's mass times the Jacobian of its centre.
+    tau_Nm -= gravity_mps2_ * wb_.H_Bl[leg].row(2).transpose();
+  }
+  return -wb_.J_ll[leg].transpose().inverse() * tau_Nm;
+}
+
 void AdaptationKf::Correct(const AdapterInput& in, double dt_s) noexcept {
   Vec6 z = Vec6::Zero();
   const Mat3 R_HW = core::RotationZ(-core::RpyFromRotation(in.state.R_WB).z());
   for (const Leg leg : kLegs) {
-    // tau acts from trunk to foot, so the ground's force on the robot is opposite.
-    const Vec3 F = R_HW * -wb_.J_ll[leg].transpose().inverse() * in.z.tau_Nm[leg];
+    const Vec3 F = R_HW * CalcFootForce_W(leg, in);
     const Vec3 r = R_HW * wb_.p_BF_W[leg];
     z.head<3>() += F;
     z.tail<3>() += r.cross(F);
   }
   Mat63 Phi = Mat63::Zero();
-  Phi.block<3, 1>(0, 0) = R_HW * in.state.R_WB * robot_.R_BS * in.z.a_WS_S;
+  Phi.block<3, 1>(0, 0) = params_.acceleration
+                              ? Vec3(R_HW * in.state.R_WB * robot_.R_BS * in.z.a_WS_S)
+                              : Vec3(0.0, 0.0, gravity_mps2_);
   Phi(4, 1) = -gravity_mps2_;
   Phi(3, 2) = gravity_mps2_;
   if (!z.allFinite() || !Phi.allFinite()) return;

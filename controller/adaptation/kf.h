@@ -20,7 +20,8 @@ struct MassKalmanFilter {
 ///   m (v̇ + g) = Σ F,   c × m g = Σ r × F,   F = (Jᵀ)⁻¹ τ,
 /// with massless legs, c_z = 0, no rotation, in heading axes (inertial ones up to the yaw, so that
 /// c stays with the robot when it turns) and about B's origin, at single samples.
-/// Source: [Paper] eqs. EOM1, EOM2, KF1 to KF5; differs: nothing but the axes' yaw.
+/// Source: [Paper] eqs. EOM1, EOM2, KF1 to KF5; differs: nothing but the axes' yaw, unless other
+/// leg forces or no acceleration are asked for, to tell what each costs.
 class AdaptationKf final : public ModelAdapter {
  public:
   /// `robot` is borrowed.
@@ -32,6 +33,7 @@ class AdaptationKf final : public ModelAdapter {
   void Continue(const core::ModelParameters& in_use) noexcept override;
 
  private:
+  [[nodiscard]] Vec3 CalcFootForce_W(Leg leg, const AdapterInput& in) const noexcept;
   void Correct(const AdapterInput& in, double dt_s) noexcept;
 
   AdaptationKfParams params_;

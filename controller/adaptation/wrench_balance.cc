@@ -102,6 +102,24 @@ Vec3 WrenchBalance::CalcStiction(Leg leg, const RobotState& state) const noexcep
   return CalcFootForce(wb_.J_ll[leg], t, params_.observer.singular_below_m);
 }
 
+/// Normal of the ground in W. Feet on a diagonal are both down or both up when the robot stands or
+/// trots, so that a diagonal lies along the ground.
+Vec3 WrenchBalance::CalcGroundNormal_W() const noexcept {
+  const LegArray<Vec3>& p = wb_.p_BF_W;
+  const Vec3 n = (p[Leg::kFL] - p[Leg::kHR]).cross(p[Leg::kHL] - p[Leg::kFR]);
+  const double length = n.norm();
+  constexpr double kLeast_m2 = 0.01;  // feet nearly in line span no plane
+  return length > kLeast_m2 ? Vec3(n / length) : Vec3(Vec3::UnitZ());
+}
+
+/// The observer's force acts at the foot sphere's centre F, the ground's where the sphere touches:
+/// forces of the same joint torques, J_Fᵀ f_F = J_Kᵀ f_K.
+Vec3 WrenchBalance::MoveToContact(Leg leg, const Vec3& f_F_W, const Vec3& p_FK_W) const noexcept {
+  const Mat3& J = wb_.J_ll[leg];
+  const Mat3 J_K = J - core::Skew(p_FK_W) * wb_.Jw_ll[leg];
+  return CalcFootForce(J_K, J.transpose() * f_F_W, params_.observer.singular_below_m);
+}
+
 bool WrenchBalance::Add(const AdapterInput& in) noexcept {
   if (!(in.dt_s > 0.0) || !IsFinite(in)) return false;
   Slide(in.state);
@@ -109,12 +127,15 @@ bool WrenchBalance::Add(const AdapterInput& in) noexcept {
   const Prompt& prompt = prompt_.out();
   Vec6 wrench = Vec6::Zero();
   bool stands = false;
+  const Mat3 R_BW = in.state.R_WB.transpose();
+  const Vec3 n_W = CalcGroundNormal_W();
   for (const Leg leg : kLegs) {
-    const Vec3 f_B =
-        in.state.R_WB.transpose() * (in.contact.f_F_W[leg] + CalcStiction(leg, in.state));
+    const Vec3 p_FK_W = -robot_.legs[leg].foot_radius_m * n_W;
+    const Vec3 f_F_W = in.contact.f_F_W[leg] + CalcStiction(leg, in.state);
+    const Vec3 f_B = R_BW * MoveToContact(leg, f_F_W, p_FK_W);
     const Vec3 p_BF = prompt.segment<3>(kFeet + 3 * static_cast<Eigen::Index>(leg));
     wrench.head<3>() += f_B;
-    wrench.tail<3>() += p_BF.cross(f_B);
+    wrench.tail<3>() += (p_BF + R_BW * p_FK_W).cross(f_B);
     stands = stands || in.contact.contact[leg];
   }
   const Vec3 s_B = prompt.segment<3>(kForce);

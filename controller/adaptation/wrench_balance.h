@@ -32,6 +32,9 @@ struct WrenchBalanceParams {
 /// they are compared with, even the places of the feet, takes the same delay and low passes, so
 /// that neither an impact nor a foot that travels reads as mass.
 ///
+/// The observer's forces act at the centres of the foot spheres; the ground's act where these
+/// touch. On a slope of 10 deg the difference is a quarter of a kilogram for a Go2.
+///
 /// A joint at rest keeps Coulomb friction of the way it came: a robot that sank under a load and
 /// stands hangs partly on its friction, by up to a kilogram. The observer's friction is zero at
 /// rest; here it follows Dahl's model, d(x) = d(q) / presliding within [-1, 1], t_f = x friction.
@@ -63,6 +66,8 @@ class WrenchBalance {
   void Slide(const RobotState& state) noexcept;
   void Filter(const Signals& now, double dt_s) noexcept;
   [[nodiscard]] Vec3 CalcStiction(Leg leg, const RobotState& state) const noexcept;
+  [[nodiscard]] Vec3 CalcGroundNormal_W() const noexcept;
+  [[nodiscard]] Vec3 MoveToContact(Leg leg, const Vec3& f_F_W, const Vec3& p_FK_W) const noexcept;
 
   WrenchBalanceParams params_;
   const core::RobotDescription& robot_;

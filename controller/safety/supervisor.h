@@ -53,7 +53,7 @@ struct SupervisorParams {
   WatchParams estimator{.least_quality = 0.8, .after_s = 0.12, .recover_s = 2.0};
   WatchParams contact{.least_quality = 0.99, .after_s = 0.05, .recover_s = 3.0};
   WatchParams footing{.least_quality = 0.3, .after_s = 0.15, .recover_s = 4.0};
-  WatchParams load{.least_quality = 0.8, .after_s = 1.0, .recover_s = 5.0};
+  WatchParams load{.least_quality = 0.85, .after_s = 1.0, .recover_s = 5.0};
   double careful_speed_share = 0.6, careful_duty = 0.75, careful_lift_m = 0.02;
   double crouch_share = 0.9;
   double doubt = 15.0;

@@ -141,6 +141,31 @@ TEST(Model, RemovalIsANegativeStep) {
   EXPECT_NEAR(metrics.intervals[1].bias_kg, 0.4, 1e-9);
 }
 
+TEST(Model, LateBiasCountsWhetherSettledOrNot) {
+  ModelAccumulator m;
+  Work work;
+  work.Run(m, 5.0, Leave);
+  work.row_.total_mass_kg = 20.0;
+  long i = 0;
+  work.Run(m, 12.0, [&i](core::LogRow& row) {
+    row.learned_mass_kg += row.time_s < 14.999 ? 7.0 : (i++ % 2 == 0 ? -0.8 : -1.2);
+    row.learned_p_BC_m[0] += 0.004;
+    row.learned_p_BC_m[1] -= 0.003;
+  });
+  work.row_.total_mass_kg = kRobot_kg;
+  work.Run(m, 9.0, Leave);
+  const ModelMetrics metrics = m.Finish();
+  ASSERT_EQ(metrics.intervals.size(), 3u);
+  const ModelInterval& loaded = metrics.intervals[1];
+  EXPECT_FALSE(loaded.settled);
+  EXPECT_EQ(loaded.late_rows, 1000u);
+  EXPECT_NEAR(loaded.late_bias_kg, -1.0, 1e-9);
+  EXPECT_NEAR(loaded.late_noise_kg, 0.2, 1e-9);
+  EXPECT_NEAR(loaded.late_com_x_bias_m, 0.004, 1e-12);
+  EXPECT_NEAR(loaded.late_com_y_bias_m, -0.003, 1e-12);
+  EXPECT_EQ(metrics.intervals[2].late_rows, 0u) << "too short";
+}
+
 /// Five kilograms over two seconds, in steps 20 ms apart, so that most rows look at rest.
 TEST(Model, GradualChangeIsOneStepAndItsRowsBelongToNoInterval) {
   ModelAccumulator m;
@@ -269,6 +294,8 @@ TEST(Model, JsonRoundTripAndOlderResults) {
   episode.model = m.Finish();
   nlohmann::json json = nlohmann::json::parse(nlohmann::json(episode).dump());
   EXPECT_EQ(json.get<EpisodeMetrics>().model, episode.model);
+  for (nlohmann::json& i : json["model"]["intervals"]) i.erase("late_rows");
+  EXPECT_EQ(json.get<EpisodeMetrics>().model, episode.model) << "results from before late values";
   json.erase("model");
   EXPECT_EQ(json.get<EpisodeMetrics>().model, ModelMetrics{});
 }

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "analysis/bias_budget.h"
 #include "analysis/compare.h"
 #include "analysis/html.h"
 #include "analysis/model_report.h"
@@ -220,6 +221,45 @@ TEST(Report, ShowsModelAdaptation) {
   EXPECT_NEAR(a.at("model_used_bias_median_kg").get<double>(), 1.5, 1e-12);
   const auto& b = json.at("cells").at(1).at("model");
   EXPECT_NEAR(b.at("model_bias_median_kg").get<double>(), 0.1, 1e-12);
+}
+
+/// Arm b reads too much, more so at 0.6 m/s, and from seed to seed; a late row for each interval.
+void Misread(const std::string& arm, int seed, EpisodeMetrics& m) {
+  Adapt(arm, seed, m);
+  if (arm == "a") return;
+  const bool fast = m.windows.front().command_mps > 0.5;
+  ModelInterval& added = m.model.intervals[1];
+  added.late_rows = 100;
+  added.late_bias_kg = 0.1 * seed + (fast ? 0.3 + 0.01 * seed : 0.0);
+  added.late_noise_kg = 0.05;
+  ModelInterval removed = added;
+  removed.step_kg = -3.0;
+  removed.late_bias_kg -= 0.1;
+  m.model.intervals.push_back(removed);
+}
+
+TEST(BiasBudget, ComparesWithTheBaselineBySeed) {
+  const test::TemporaryFolder folder;
+  WriteCampaign(folder.path(), {}, Misread);
+  EXPECT_TRUE(CalcBiasBudget(LoadResults(folder.path())).empty()) << "no axis has a baseline";
+  nlohmann::json index = nlohmann::json::parse(core::ReadText(folder.path() / "campaign.json"));
+  index["sweep"][0]["baseline"] = "0.3";
+  core::WriteText(folder.path() / "campaign.json", index.dump());
+  const std::vector<BiasLine> lines = CalcBiasBudget(LoadResults(folder.path()));
+  ASSERT_EQ(lines.size(), 2u) << "a did not learn";
+  EXPECT_TRUE(lines[0].baseline);
+  EXPECT_NEAR(lines[0].bias_kg.mean, 0.15, 1e-12);
+  EXPECT_NEAR(lines[0].bias_kg.deviation, 0.1, 1e-12);
+  EXPECT_NEAR(lines[0].added_kg.mean, 0.2, 1e-12);
+  EXPECT_NEAR(lines[0].removed_kg.mean, 0.1, 1e-12);
+  EXPECT_NEAR(lines[0].noise_kg.mean, 0.05, 1e-12);
+  EXPECT_NEAR(lines[1].change_kg.mean, 0.32, 1e-12);
+  // Differences of 0.31, 0.32 and 0.33 kg.
+  EXPECT_NEAR(lines[1].change_kg.interval.high, 0.32 + 0.01 * 2.484, 1e-5);
+  const std::string html = core::ReadText(WriteReport(folder.path()));
+  EXPECT_NE(html.find("<td>b</td><td>0.3</td><td>3</td><td>+0.15 ± 0.10</td><td>baseline</td>"),
+            std::string::npos);
+  EXPECT_NE(html.find("<td>+0.32 (95 %: +0.30 to +0.34)</td>"), std::string::npos);
 }
 
 TEST(Report, PairsTrackingBySeed) {

@@ -9,6 +9,7 @@
 
 #include "app/campaign.h"
 #include "app/config_docs.h"
+#include "core/files.h"
 #include "tests/support/robots.h"
 
 namespace scoria::app {
@@ -63,6 +64,47 @@ TEST(Scenario, OverridesReachTheItemsOfLists) {
   } catch (const core::ConfigError& e) {
     EXPECT_STREQ(e.what(), "--set pushes.1.impulse_Ns=30: 1: the list has 1 items, counted from 0");
   }
+}
+
+/// What LoadCampaign says of a sweep of the level trot.
+std::string SweepError(const std::string& sweep) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "c.yaml";
+  core::WriteText(file, fmt::format("name: c\nscenario: {{base: {}}}\narms: [{{name: a}}]\nsweep:\n"
+                                    "{}\n",
+                                    test::SourcePath("scenarios/flat.yaml").string(), sweep));
+  try {
+    (void)LoadCampaign(file, {});
+  } catch (const core::ConfigError& e) {
+    const std::string what = e.what();
+    return what.substr(what.find("c.yaml"));
+  }
+  return "no error";
+}
+
+TEST(Campaign, SweepsOverVariantsOfSeveralKeys) {
+  const Campaign campaign = LoadCampaign(test::SourcePath("campaigns/bias_errors.yaml"), {});
+  const CampaignAxis& axis = campaign.sweep.at(0);
+  EXPECT_EQ(axis.baseline, "nothing");
+  EXPECT_EQ(axis.key, axis.label);
+  ASSERT_EQ(axis.names.size(), axis.sets.size());
+  EXPECT_EQ(axis.names.at(1), "torque gain error");
+  core::ConfigNode node = campaign.scenario;
+  core::MergeConfig(node, axis.sets.at(1));
+  const auto scenario = core::ReadConfig<Scenario>(node);
+  EXPECT_EQ(std::get<sim::HonestSensors>(scenario.sensors).torque.gain_error, 0.0);
+}
+
+TEST(Campaign, SweepErrorsNameTheRule) {
+  EXPECT_EQ(SweepError("  - {label: l, key: seed, variants: [{name: v}]}"),
+            "c.yaml:5:37: sweep[0].variants: stands in place of key and values");
+  EXPECT_EQ(SweepError("  - {variants: [{name: v}]}"),
+            "c.yaml:5:5: sweep[0].label: is missing; variants need one");
+  EXPECT_EQ(SweepError("  - {label: l, baseline: w, variants: [{name: v}]}"),
+            "c.yaml:5:26: sweep[0].baseline: w: is none of the variants");
+  EXPECT_EQ(SweepError("  - {label: l, variants: [{name: v, sed: 1}]}"),
+            "c.yaml:5:37: sweep[0].variants[0].sed: unknown key; known here: name, set");
+  EXPECT_EQ(SweepError("  - {key: duration_s, baseline: 20, values: [10, 20]}"), "no error");
 }
 
 TEST(Docs, ConfigTableIsCurrent) {
