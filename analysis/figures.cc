@@ -13,6 +13,7 @@
 #include "analysis/compare.h"
 #include "analysis/estimation_metrics.h"
 #include "core/files.h"
+#include "core/robot/contact.h"
 
 namespace scoria::analysis {
 namespace {
@@ -224,6 +225,30 @@ CaptionedFigure SolveTimeFigure(const CampaignResults& results) {
           "99th percentiles."};
 }
 
+/// Columns of the time figure. Feet and stages are lines at their own height, or nothing.
+std::vector<double> TimeRow(const core::LogRow& r) {
+  const double c = std::cos(r.rpy_rad[2]), s = std::sin(r.rpy_rad[2]);
+  std::vector<double> row = {r.time_s,
+                             r.com_z_m - r.ground_z_m,
+                             r.ref_p_WC_m[2] - HeightDrift(r) - r.ground_z_m,
+                             c * r.v_WB_mps[0] + s * r.v_WB_mps[1],
+                             r.cmd_v_x_mps,
+                             r.rpy_rad[0] * kDegrees,
+                             r.rpy_rad[1] * kDegrees};
+  bool sensor_given_up = false;
+  for (std::size_t leg = 0; leg < 4; ++leg) {
+    row.push_back(r.f_F_W_N[3 * leg + 2] > 5.0 ? 4.0 - static_cast<double>(leg) : kNan);
+    const auto source = static_cast<ContactSource>(r.contact_source[leg]);
+    sensor_given_up |=
+        source == ContactSource::kObserver && !r.sensor_healthy[leg] && r.sensor_counts[leg] != 0.0;
+  }
+  row.push_back(r.period_s);
+  row.push_back(sensor_given_up ? 7.0 : kNan);
+  for (std::size_t i = 0; i < r.fallen_back.size(); ++i)
+    row.push_back(r.fallen_back[i] ? 6.0 - static_cast<double>(i) : kNan);
+  return row;
+}
+
 }  // namespace
 
 std::vector<CaptionedFigure> FallFigures(const CampaignResults& results) {
@@ -248,7 +273,7 @@ std::vector<CaptionedFigure> ArmFigures(const CampaignResults& results) {
 }
 
 CaptionedFigure TimeFigure(const LogContent& log, const std::string& name) {
-  Figure figure("time_" + core::FileNameOf(name), "Course of " + name, 1000, 900);
+  Figure figure("time_" + core::FileNameOf(name), "Course of " + name, 1000, 1100);
   constexpr std::size_t kMaxPoints = 4000;
   const std::size_t every = std::max<std::size_t>(1, log.rows.size() / kMaxPoints);
   std::vector<std::vector<double>> rows;
@@ -256,21 +281,9 @@ CaptionedFigure TimeFigure(const LogContent& log, const std::string& name) {
   for (std::size_t i = 0; i < log.rows.size(); i += every) {
     const core::LogRow& r = log.rows[i];
     if (!rows.empty() && r.time_s - previous_s > 1.0)
-      rows.push_back(std::vector<double>(12, kNan));  // a gap is no line
+      rows.push_back(std::vector<double>(TimeRow({}).size(), kNan));  // a gap is no line
     previous_s = r.time_s;
-    const double c = std::cos(r.rpy_rad[2]), s = std::sin(r.rpy_rad[2]);
-    const double v_x = c * r.v_WB_mps[0] + s * r.v_WB_mps[1];
-    std::vector<double> row = {r.time_s,
-                               (r.com_z_m - r.ground_z_m),
-                               (r.ref_p_WC_m[2] - HeightDrift(r) - r.ground_z_m),
-                               v_x,
-                               r.cmd_v_x_mps,
-                               r.rpy_rad[0] * kDegrees,
-                               r.rpy_rad[1] * kDegrees};
-    for (std::size_t leg = 0; leg < 4; ++leg)
-      row.push_back(r.f_F_W_N[3 * leg + 2] > 5.0 ? 4.0 - static_cast<double>(leg) : kNan);
-    row.push_back(r.period_s);
-    rows.push_back(std::move(row));
+    rows.push_back(TimeRow(r));
   }
   figure.Data("d", rows);
   for (std::size_t i = 0; i < log.falls_s.size(); ++i) {
@@ -281,7 +294,7 @@ CaptionedFigure TimeFigure(const LogContent& log, const std::string& name) {
   if (!rows.empty())
     figure.Line(fmt::format("set xrange [{}:{}]", rows.front()[0], rows.back()[0]));
   figure.Line(
-      fmt::format("set multiplot layout 4,1 title '{}' margins 0.09,0.97,0.07,0.94 spacing 0,0.045",
+      fmt::format("set multiplot layout 5,1 title '{}' margins 0.09,0.97,0.07,0.94 spacing 0,0.045",
                   Escape(name)));
   figure.Line("set key top right horizontal; set format x ''");
   figure.Line(
@@ -294,11 +307,18 @@ CaptionedFigure TimeFigure(const LogContent& log, const std::string& name) {
       "set ylabel 'angle [deg]'; plot $d u 1:6 w l lc rgb '#009e73' t 'roll', $d u 1:7 w l lc rgb "
       "'#cc79a7' t 'pitch'");
   figure.Line(
-      "set format x '%g'; set xlabel 'time [s]'; set ylabel 'stance'; unset key; set yrange "
-      "[0.5:4.5]; set ytics ('FL' 4, 'FR' 3, 'HL' 2, 'HR' 1)");
+      "set ylabel 'stance'; unset key; set yrange [0.5:4.5]; set ytics ('FL' 4, 'FR' 3, 'HL' 2, "
+      "'HR' 1)");
   figure.Line("plot for [k=8:11] $d u 1:k w l lw 6 lc rgb '#444444'");
+  figure.Line(
+      "set format x '%g'; set xlabel 'time [s]'; set ylabel 'given up'; set yrange [0.5:7.5]; set "
+      "ytics ('sensor' 7, 'mpc' 6, 'body' 5, 'estimator' 4, 'contact' 3, 'footing' 2, 'load' "
+      "1)");
+  figure.Line("plot for [k=13:19] $d u 1:k w l lw 6 lc rgb '#d55e00'");
   figure.Line("unset multiplot");
-  return {std::move(figure), "Vertical dashes mark falls. Stance: normal force above 5 N."};
+  return {std::move(figure),
+          "Vertical dashes mark falls. Stance: normal force above 5 N. Given up: a foot sensor for "
+          "the momentum observer, stages by the supervisor."};
 }
 
 }  // namespace scoria::analysis
