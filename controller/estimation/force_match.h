@@ -6,30 +6,39 @@
 namespace scoria::controller {
 
 struct ForceMatchParams {
-  double learn_s = 1.0;
+  double zero_s = 1.0;
+  double gain_s = 10.0;
   double tolerance_N = 12.0;
-  double tolerance_share = 0.2;
-  double cap_N = 50.0;
+  double tolerance_share = 0.3;
+  double load_share = 1.2;
+  double cap_N = 40.0;
   double impulse_Ns = 0.5;
   template <class Archive>
   void Serialize(Archive& a) {
     a.Field(
-        "learn_s", learn_s,
+        "zero_s", zero_s,
         {.min = 0.05,
          .max = 60.0,
-         .doc = "time constant of the zero, in time in the air, and of the gain, in time on the "
-                "ground; nothing is judged before so much of both"});
-    a.Field(
-        "tolerance_N", tolerance_N,
-        {.min = 0.0,
-         .max = 1e4,
-         .doc =
-             "by so much the counts may mean more than the observer's force for good: friction"});
-    a.Field(
-        "tolerance_share", tolerance_share,
-        {.min = 0.0,
-         .max = 10.0,
-         .doc = "and by this share of the observer's force: slope of the ground under the foot"});
+         .doc = "time constant of the zero, which drifts, in time in the air; nothing is judged "
+                "before so long in the air and on the ground"});
+    a.Field("gain_s", gain_s,
+            {.min = 0.05,
+             .max = 600.0,
+             .doc = "time constant of the gain, which hardly changes, in time on the ground"});
+    a.Field("tolerance_N", tolerance_N,
+            {.min = 0.0,
+             .max = 1e4,
+             .doc = "by so much the counts may mean more than the observer's force for good: joint "
+                    "friction"});
+    a.Field("tolerance_share", tolerance_share,
+            {.min = 0.0,
+             .max = 10.0,
+             .doc = "and by this share of that force: slope of the ground under the foot"});
+    a.Field("load_share", load_share,
+            {.min = 0.0,
+             .max = 100.0,
+             .doc = "a foot that bears more than this share of its mean force is not judged: the "
+                    "observer falls behind high loads"});
     a.Field("cap_N", cap_N,
             {.min = 0.0,
              .max = 1e4,
@@ -53,7 +62,7 @@ struct ForceMatchInput {
 ///
 /// zero is the mean reading in the air, gain the mean of raw − zero over the mean of f on the
 /// ground. Either only ages in its own phase, so that standing for long does not forget the zero,
-/// and either follows slow drift. A jump upwards shows at once, on the ground too, where the word
+/// and follows slow drift. A jump upwards shows at once, on the ground too, where the word
 /// "contact" is still right: its force less the tolerance is summed up. Counts that mean less are
 /// not judged: either contact is still told right, or it is not, which SensorHealth sees; and the
 /// observer of a nearly stretched leg may feel 40 N too much.
@@ -64,8 +73,7 @@ class ForceMatch {
   ForceMatch(const ForceMatchParams& params, double step_s) noexcept
       : params_(params), step_s_(step_s) {}
 
-  /// @returns false from when the impulse is reached until the counts have matched for long enough
-  ///          to make up for it.
+  /// @returns false from when the impulse is reached, while the excess lasts.
   bool Update(const ForceMatchInput& in) noexcept;
 
  private:
@@ -75,7 +83,7 @@ class ForceMatch {
     void Add(double sample, double step_s, double constant_s) noexcept;
   };
   void Learn(const ForceMatchInput& in) noexcept;
-  [[nodiscard]] double CalcExcess_N(const ForceMatchInput& in) const noexcept;
+  [[nodiscard]] bool CanJudge(const ForceMatchInput& in) const noexcept;
 
   ForceMatchParams params_;
   double step_s_;

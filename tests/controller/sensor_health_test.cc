@@ -39,7 +39,7 @@ class Foot {
     in.raw_counts = Counts(force_N);
     in.sensor = in.observer = down;
     in.probability = down ? 0.95 : 0.05;
-    in.force_N = observer_share * force_N + spike_N + 5.0 * rng_.NextNormal();
+    in.force_N = observer_share * force_N + observer_offset_N + 5.0 * rng_.NextNormal();
     return health_.Update(in);
   }
   /// @returns whether it was believed throughout.
@@ -57,7 +57,7 @@ class Foot {
 
   Fault fault;
   double gain_per_N = 0.8, zero_counts = 12.0, dead_band_N = 5.0, limit_counts = 1023.0;
-  double observer_share = 1.0, spike_N = 0.0, payload_share = 1.0;
+  double observer_share = 1.0, observer_offset_N = 0.0, payload_share = 1.0;
   bool standing = false;
 
  private:
@@ -138,10 +138,22 @@ TEST(SensorHealth, TheObserversOwnErrorsAreTolerated) {
   }
   foot.observer_share = 1.0;
   ASSERT_TRUE(foot.Run(0.1));
-  foot.spike_N = -500.0;  // an impact that the observer has not felt yet
+  foot.fault = {500.0, 1.0};  // an impact that the observer has not felt yet
   EXPECT_TRUE(foot.Run(0.006));
-  foot.spike_N = 0.0;
+  foot.fault = kNone;
   EXPECT_TRUE(foot.Run(10.0));
+}
+
+TEST(SensorHealth, AnObserverThatFallsBehindAHighLoadOrPullsAtTheFootIsTolerated) {
+  Foot foot;
+  ASSERT_TRUE(foot.Run(kLearning_s));
+  foot.payload_share = 3.0;
+  foot.observer_share = 0.6;
+  EXPECT_TRUE(foot.Run(0.3));
+  foot.payload_share = foot.observer_share = 1.0;
+  ASSERT_TRUE(foot.Run(0.3));
+  foot.observer_offset_N = -100.0;  // in the air
+  EXPECT_TRUE(foot.Run(kSwing_s));
 }
 
 TEST(SensorHealth, ASaturatedSensorIsStillASensor) {
