@@ -99,7 +99,7 @@ Cell PoolCell(const CampaignResults& results, const std::string& arm,
     falls += e.falls;
     cell.stuck += e.stuck;
     metres += m.distance_m;
-    if (m.cot_mech_abs > 0.0) work_J += m.energy.mech_abs_J / m.cot_mech_abs;  // = m g d
+    work_J += m.transport_J;
     mech_abs += m.energy.mech_abs_J;
     mech_pos += m.energy.mech_pos_J;
     electrical += m.energy.electrical_J;
@@ -126,7 +126,7 @@ Cell PoolCell(const CampaignResults& results, const std::string& arm,
     cell.real_time_factor += e.real_time_factor;
   }
   cell.falls = EstimateRate(falls, metres);
-  if (work_J > 0.0) {
+  if (work_J > 0.0 && metres > kLeastWay_m * counted) {
     cell.cot_mech_abs = mech_abs / work_J;
     cell.cot_mech_pos = mech_pos / work_J;
     cell.cot_electrical = electrical / work_J;

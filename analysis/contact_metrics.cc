@@ -15,8 +15,9 @@ namespace scoria::analysis {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kRunRows =
-    5;  // 10 ms: shorter true contacts are scuffs, shorter gaps bounces
+constexpr double kReach_s = 0.015;  // of a true edge: within it nobody is judged
+constexpr double kRun_s = 0.010;    // shorter true contacts are scuffs, shorter gaps bounces
+constexpr double kSameInstant_s = 1e-9;
 
 double Share(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? kNan : static_cast<double>(part) / static_cast<double>(whole);
@@ -179,16 +180,14 @@ void EdgeMatcher::Update(const Instant& now, EdgeQuality& quality) noexcept {
 }
 
 void ContactAccumulator::Break() noexcept {
-  rows_ = 0;
+  window_.clear();
+  judged_ = 0;
+  has_judged_ = false;
   for (LegMatchers& leg : matchers_) {
     for (EdgeMatcher& m : leg.touchdown) m.Reset();
     for (EdgeMatcher& m : leg.liftoff) m.Reset();
   }
   healthy_.fill(true);
-}
-
-const ContactAccumulator::Sample& ContactAccumulator::At(std::size_t ahead) const noexcept {
-  return window_[(rows_ - 1 - kReach + ahead) % kWindow];
 }
 
 void ContactAccumulator::CountSources(const core::LogRow& row) noexcept {
@@ -202,25 +201,36 @@ void ContactAccumulator::CountSources(const core::LogRow& row) noexcept {
   }
 }
 
-void ContactAccumulator::AddRow(const core::LogRow& row) noexcept {
+void ContactAccumulator::AddRow(const core::LogRow& row) {
   CountSources(row);
-  window_[rows_ % kWindow] = {
-      row.time_s,
-      row.true_contact,
-      {row.contact, row.contact_sensor, row.contact_observer, row.planned_stance},
-      row.sensor_counts,
-      row.observer_probability};
-  ++rows_;
-  if (rows_ < kWindow) return;
-  if (rows_ == kWindow) debounced_ = At(0).truth;
-  for (std::size_t leg = 0; leg < 4; ++leg) Judge(leg);
+  window_.push_back({row.time_s,
+                     row.true_contact,
+                     {row.contact, row.contact_sensor, row.contact_observer, row.planned_stance},
+                     row.sensor_counts,
+                     row.observer_probability});
+  while (window_[judged_].time_s + kReach_s - kSameInstant_s <= row.time_s) JudgeNext();
+}
+
+void ContactAccumulator::JudgeNext() noexcept {
+  const double first_s = window_[judged_].time_s - kReach_s + kSameInstant_s;
+  while (judged_ > 0 && window_[1].time_s <= first_s) {
+    window_.pop_front();
+    --judged_;
+  }
+  if (window_.front().time_s <= first_s) {  // else too near to the start of the stretch
+    if (!has_judged_) debounced_ = window_[judged_].truth;
+    has_judged_ = true;
+    for (std::size_t leg = 0; leg < 4; ++leg) Judge(leg);
+  }
+  ++judged_;
 }
 
 /// Follows the truth where its new state lasts.
 void ContactAccumulator::UpdateDebounced(std::size_t leg) noexcept {
-  const bool now = At(0).truth[leg];
-  for (std::size_t ahead = 1; ahead < kRunRows; ++ahead) {
-    if (At(ahead).truth[leg] != now) return;
+  const bool now = window_[judged_].truth[leg];
+  const double until_s = window_[judged_].time_s + kRun_s - kSameInstant_s;
+  for (std::size_t i = judged_; i < window_.size() && window_[i].time_s < until_s; ++i) {
+    if (window_[i].truth[leg] != now) return;
   }
   debounced_[leg] = now;
 }
@@ -230,7 +240,7 @@ void ContactAccumulator::Judge(std::size_t leg) noexcept {
   bool any_contact = false, any_swing = false;
   for (const Sample& s : window_) (s.truth[leg] ? any_contact : any_swing) = true;
   if (any_contact != any_swing) JudgeSteady(leg);
-  const Sample& now = At(0);
+  const Sample& now = window_[judged_];
   for (std::size_t k = 0; k < kNumContactWords; ++k) {
     ContactQuality& q = metrics_.words[k];
     const bool word = now.words[k][leg], on = debounced_[leg];
@@ -243,7 +253,7 @@ void ContactAccumulator::Judge(std::size_t leg) noexcept {
 
 /// A row away from the true edges.
 void ContactAccumulator::JudgeSteady(std::size_t leg) noexcept {
-  const Sample& now = At(0);
+  const Sample& now = window_[judged_];
   const bool stance = now.truth[leg];
   for (std::size_t k = 0; k < kNumContactWords; ++k) {
     ContactQuality& q = metrics_.words[k];

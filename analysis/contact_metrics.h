@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <deque>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -130,17 +131,16 @@ class EdgeMatcher {
   double rise_s_ = 0.0, touchdown_s_ = 0.0;
 };
 
-/// Accumulates rows while the walking controller is in charge. Looks 15 ms = 8 rows back and ahead,
-/// so the first and last 8 rows of a stretch are not judged.
+/// Accumulates rows of any rate while the walking controller is in charge. Looks 15 ms back and
+/// ahead, so the first and last 15 ms of a stretch are not judged.
 class ContactAccumulator {
  public:
-  void AddRow(const core::LogRow& row) noexcept;
+  void AddRow(const core::LogRow& row);
   /// Rows before and after belong to different stretches.
   void Break() noexcept;
   [[nodiscard]] const ContactMetrics& metrics() const noexcept { return metrics_; }
 
  private:
-  static constexpr std::size_t kReach = 8, kWindow = 2 * kReach + 1;
   struct Sample {
     double time_s = 0.0;
     std::array<bool, 4> truth{};
@@ -150,16 +150,17 @@ class ContactAccumulator {
   struct LegMatchers {
     std::array<EdgeMatcher, kNumContactWords> touchdown, liftoff;
   };
-  /// The sample `ahead` rows after the judged one.
-  [[nodiscard]] const Sample& At(std::size_t ahead) const noexcept;
+  void JudgeNext() noexcept;
   void CountSources(const core::LogRow& row) noexcept;
   void Judge(std::size_t leg) noexcept;
   void JudgeSteady(std::size_t leg) noexcept;
   void UpdateDebounced(std::size_t leg) noexcept;
 
   ContactMetrics metrics_;
-  std::array<Sample, kWindow> window_{};  // ring
-  std::size_t rows_ = 0;                  // of this stretch
+  // From the last row 15 ms before the judged one to the first 15 ms after it.
+  std::deque<Sample> window_;
+  std::size_t judged_ = 0;      // index of the row to be judged next
+  bool has_judged_ = false;     // a row of this stretch
   std::array<LegMatchers, 4> matchers_{};
   std::array<bool, 4> debounced_{};
   std::array<bool, 4> healthy_{true, true, true, true};

@@ -103,9 +103,9 @@ CaptionedFigure FallFigure(const CampaignResults& results, std::size_t axis,
           "points at the upper bound of its rate."};
 }
 
-/// Commanded speeds, in steps of 0.1 m/s, that hold at least a twentieth of the windows each; 1
-/// to 3.
-int DistinctSpeeds(const std::vector<double>& commands) {
+/// The terms that an arm's windows carry, 1 to 3: commanded speeds, in steps of 0.1 m/s, that hold
+/// at least a twentieth of the windows each.
+int CurveTerms(const std::vector<double>& commands) {
   std::map<long, std::size_t> counts;
   for (const double v : commands) ++counts[std::lround(10.0 * v)];
   const auto frequent = std::count_if(counts.begin(), counts.end(), [&](const auto& c) {
@@ -117,24 +117,26 @@ int DistinctSpeeds(const std::vector<double>& commands) {
 CaptionedFigure CostFigure(const CampaignResults& results, const char* name, const char* label,
                            double SpeedWindow::*cost) {
   Figure figure(fmt::format("cot_{}", name), fmt::format("Cost of transport, {}", label));
-  std::string plots, fits;
+  std::string plots, fits, formulas;
   for (std::size_t a = 0; a < results.arms.size(); ++a) {
-    std::vector<double> x, y, commands;
+    std::vector<CurvePoint> points;
+    std::vector<double> commands;
     std::vector<std::vector<double>> rows;
-    for (const EpisodeRecord& e : results.episodes) {
+    for (std::size_t episode = 0; episode < results.episodes.size(); ++episode) {
+      const EpisodeRecord& e = results.episodes[episode];
       if (e.arm != results.arms[a]) continue;
       for (const SpeedWindow& w : e.metrics.windows) {
         if (w.v_mps < 0.02) continue;
-        x.push_back(w.v_mps);
         commands.push_back(w.command_mps);
-        y.push_back(w.*cost);
+        points.push_back({w.v_mps, w.*cost, episode});
         rows.push_back({w.v_mps, w.*cost});
       }
     }
     if (rows.empty()) continue;
     const std::string colour = ArmColour(a), arm = Escape(results.arms[a]);
     figure.Data(fmt::format("p{}", a), rows);
-    const CurveFit fit = FitCostCurve(x, y, DistinctSpeeds(commands), 1);
+    const int terms = CurveTerms(commands);
+    const CurveFit fit = FitCostCurve(points, terms, 1);
     std::string title = arm;
     if (fit.valid) {
       std::vector<std::vector<double>> curve;
@@ -142,6 +144,8 @@ CaptionedFigure CostFigure(const CampaignResults& results, const char* name, con
         curve.push_back({fit.x[i], fit.y[i], fit.low[i], fit.high[i]});
       figure.Data(fmt::format("f{}", a), curve);
       title += fmt::format(" (r^2 = {:.2f}, n = {})", fit.r2, rows.size());
+      formulas += fmt::format("{}{}: {}", formulas.empty() ? "" : "; ", results.arms[a],
+                              CostCurveFormula(terms));
       fits += fmt::format(
           "{}$f{} u 1:3:4 w filledcurves fc rgb '{}' fs transparent solid 0.2 notitle, $f{} u 1:2 "
           "w l lw 2 lc rgb '{}' t '{}'",
@@ -163,8 +167,9 @@ CaptionedFigure CostFigure(const CampaignResults& results, const char* name, con
     figure.Line("plot " + plots + (fits.empty() ? "" : ", " + fits));
   }
   return {std::move(figure),
-          "One point per steady five-second window; curve a/v + b + c v by least squares; band: 95 "
-          "% bootstrap of the windows."};
+          fmt::format("One point per steady five-second window (a speed v). Fitted robustly: {}. Band: 95 % by "
+                      "resampling episodes.",
+                      formulas.empty() ? "nothing" : formulas)};
 }
 
 CaptionedFigure TrackingFigure(const CampaignResults& results) {

@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kChord_s = 0.5;
 constexpr double kWindow_s = 5.0;
-constexpr double kSettle_s = 3.0;  // after the command changed
+constexpr double kSettle_s = 3.0;  // after the command changed, a placement or a fallback
+constexpr double kBeforeFall_s = 1.0;  // the tumble is no steady walking
 // A command that differs by less than this and this share of the speed is the same: steering along
 // a route.
 constexpr double kSameCommand_mps = 0.05, kSameShare = 0.15;
@@ -25,12 +26,17 @@ bool IsStop(const core::LogRow& row) {
   return row.cmd_v_x_mps == 0.0 && row.cmd_v_y_mps == 0.0 && row.cmd_w_z_radps == 0.0;
 }
 
+double SpeedMargin(double speed_mps) { return kSameCommand_mps + kSameShare * speed_mps; }
+
+bool OnFallback(const core::LogRow& row) {
+  return std::any_of(row.fallen_back.begin(), row.fallen_back.end(), [](bool on) { return on; });
+}
+
 /// Against the command at the start of the steady stretch, so that slow drifts count too; the small
 /// corrections of somebody who steers along a route do not.
 bool SameCommand(const core::LogRow& a, const core::LogRow& b) {
   constexpr double kSameYaw_radps = 0.6;
-  const double margin_mps =
-      kSameCommand_mps + kSameShare * std::max(CommandSpeed(a), CommandSpeed(b));
+  const double margin_mps = SpeedMargin(std::max(CommandSpeed(a), CommandSpeed(b)));
   return std::abs(a.cmd_v_x_mps - b.cmd_v_x_mps) < margin_mps &&
          std::abs(a.cmd_v_y_mps - b.cmd_v_y_mps) < margin_mps &&
          std::abs(a.cmd_w_z_radps - b.cmd_w_z_radps) < kSameYaw_radps && IsStop(a) == IsStop(b);
@@ -71,8 +77,9 @@ MetricsAccumulator::Mark MetricsAccumulator::MarkOf(const core::LogRow& row) {
 void MetricsAccumulator::StartStretch(const core::LogRow& row) {
   in_stretch_ = true;
   segment_ = row.segment;
-  chord_ = window_ = MarkOf(row);
-  window_distance_m_ = 0.0;
+  chord_ = MarkOf(row);
+  chord_mass_kgs_ = 0.0;
+  last_window_s_ = -1.0;
   StartSteady(row);
   previous_ = row;
 }
@@ -82,16 +89,40 @@ void MetricsAccumulator::StartSteady(const core::LogRow& row) {
   stride_.clear();
   stride_head_ = 0;
   standing_ = false;
+  settled_s_ = row.time_s + kSettle_s;
+  StartWindow(row);
+}
+
+void MetricsAccumulator::StartWindow(const core::LogRow& row) {
   window_ = MarkOf(row);
-  window_distance_m_ = 0.0;
+  window_distance_m_ = window_transport_J_ = window_command_m_ = 0.0;
 }
 
 /// Counts the open chord, where a fall or the end of the log cuts it short.
 void MetricsAccumulator::EndStretch() {
   if (!in_stretch_) return;
   in_stretch_ = false;
-  metrics_.distance_m +=
-      std::hypot(previous_.p_WB_m[0] - chord_.x_m, previous_.p_WB_m[1] - chord_.y_m);
+  CloseChord(previous_);
+}
+
+/// The mass that was carried over the chord is its mean over time.
+void MetricsAccumulator::CloseChord(const core::LogRow& row) {
+  const double chord_m = std::hypot(row.p_WB_m[0] - chord_.x_m, row.p_WB_m[1] - chord_.y_m);
+  const double elapsed_s = row.time_s - chord_.time_s;
+  const double mass_kg = elapsed_s > 0.0 ? chord_mass_kgs_ / elapsed_s : row.total_mass_kg;
+  const double transport_J = mass_kg * gravity_mps2_ * chord_m;
+  metrics_.distance_m += chord_m;
+  metrics_.transport_J += transport_J;
+  window_distance_m_ += chord_m;
+  window_transport_J_ += transport_J;
+  chord_ = MarkOf(row);
+  chord_mass_kgs_ = 0.0;
+}
+
+void MetricsAccumulator::DropWindowBefore(double fall_s) {
+  if (last_window_s_ < 0.0 || fall_s - last_window_s_ > kBeforeFall_s) return;
+  metrics_.windows.pop_back();
+  last_window_s_ = -1.0;
 }
 
 /// Adds what the ledger says at the end of a stretch between placements.
@@ -119,6 +150,7 @@ void MetricsAccumulator::AddRow(const core::LogRow& row, const core::SolveTimes&
   metrics_.mass_kg = row.total_mass_kg;
   if (times.mpc_s > 0.0) mpc_times_.Add(times.mpc_s);
   if (times.wbc_s > 0.0) wbc_times_.Add(times.wbc_s);
+  if (row.fallen && in_stretch_) DropWindowBefore(row.time_s);
   if (!row.operating || row.fallen || row.segment != segment_) EndStretch();
   if (!row.operating || row.fallen) return;
   for (std::size_t leg = 0; leg < 4; ++leg) {
@@ -140,32 +172,30 @@ void MetricsAccumulator::AddWalking(const core::LogRow& row) {
   metrics_.energy.mech_pos_J += row.mech_pos_J - previous_.mech_pos_J;
   metrics_.energy.electrical_J += row.electrical_J - previous_.electrical_J;
   metrics_.energy.battery_J += row.battery_J - previous_.battery_J;
-  if (row.time_s - chord_.time_s < kChord_s - 1e-9) return;
-  const double chord_m = std::hypot(row.p_WB_m[0] - chord_.x_m, row.p_WB_m[1] - chord_.y_m);
-  metrics_.distance_m += chord_m;
-  window_distance_m_ += chord_m;
-  chord_ = MarkOf(row);
+  chord_mass_kgs_ += row.total_mass_kg * (row.time_s - previous_.time_s);
+  if (row.time_s - chord_.time_s >= kChord_s - 1e-9) CloseChord(row);
 }
 
 /// One point of cost of transport against speed for every five steady seconds.
 void MetricsAccumulator::AddWindow(const core::LogRow& row) {
-  const bool settling = row.time_s - steady_.time_s < kSettle_s;
-  if (settling || CommandSpeed(row) == 0.0) {
-    window_ = MarkOf(row);
-    window_distance_m_ = 0.0;
+  if (OnFallback(row)) settled_s_ = row.time_s + kSettle_s;
+  if (row.time_s < settled_s_ || CommandSpeed(row) == 0.0) {
+    StartWindow(row);
     return;
   }
+  window_command_m_ += CommandSpeed(row) * (row.time_s - previous_.time_s);
   const double elapsed_s = row.time_s - window_.time_s;
   if (elapsed_s < kWindow_s - 1e-9) return;
-  if (window_distance_m_ > 0.1) {
-    const double work_J = metrics_.mass_kg * gravity_mps2_ * window_distance_m_;
-    metrics_.windows.push_back({window_distance_m_ / elapsed_s, CommandSpeed(row),
+  const double v_mps = window_distance_m_ / elapsed_s, asked_mps = window_command_m_ / elapsed_s;
+  if (std::abs(v_mps - asked_mps) < SpeedMargin(asked_mps) && window_transport_J_ > 0.0) {
+    const double work_J = window_transport_J_;
+    metrics_.windows.push_back({v_mps, asked_mps,
                                 (row.mech_abs_J - window_.energy.mech_abs_J) / work_J,
                                 (row.mech_pos_J - window_.energy.mech_pos_J) / work_J,
                                 (row.electrical_J - window_.energy.electrical_J) / work_J});
+    last_window_s_ = row.time_s;
   }
-  window_ = MarkOf(row);
-  window_distance_m_ = 0.0;
+  StartWindow(row);
 }
 
 void MetricsAccumulator::AddTracking(const core::LogRow& row) {
@@ -223,13 +253,11 @@ EpisodeMetrics MetricsAccumulator::Finish() {
   EndStretch();
   CloseBudget();
   EpisodeMetrics m = metrics_;
-  const double work_J = m.mass_kg * gravity_mps2_ * m.distance_m;
-  constexpr double kLeastWay_m = 1.0;  // standing and turning in place have no cost of transport
-  if (m.distance_m > kLeastWay_m) {
-    m.cot_mech_abs = m.energy.mech_abs_J / work_J;
-    m.cot_mech_pos = m.energy.mech_pos_J / work_J;
-    m.cot_electrical = m.energy.electrical_J / work_J;
-    m.cot_battery = m.energy.battery_J / work_J;
+  if (m.distance_m > kLeastWay_m && m.transport_J > 0.0) {
+    m.cot_mech_abs = m.energy.mech_abs_J / m.transport_J;
+    m.cot_mech_pos = m.energy.mech_pos_J / m.transport_J;
+    m.cot_electrical = m.energy.electrical_J / m.transport_J;
+    m.cot_battery = m.energy.battery_J / m.transport_J;
   }
   TrackingErrors& t = m.tracking;
   if (rows_ > 0) {
@@ -261,13 +289,24 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TrackingErrors, samples_s, velocity_rmse_mps,
                                    command_yaw_radps, height_rmse_m, roll_rmse_rad, pitch_rmse_rad,
                                    drift_m)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TimeQuantiles, median_s, p99_s, max_s, count)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FallEvent, time_s, cause)
+void to_json(nlohmann::json& j, const FallEvent& f) {
+  j = {{"time_s", f.time_s}, {"cause", f.cause}};
+  if (f.p_WB) j["p_WB_m"] = {f.p_WB->x(), f.p_WB->y()};
+}
+
+void from_json(const nlohmann::json& j, FallEvent& f) {
+  j.at("time_s").get_to(f.time_s);
+  j.at("cause").get_to(f.cause);
+  if (j.contains("p_WB_m"))
+    f.p_WB = Vec2(j.at("p_WB_m").at(0).get<double>(), j.at("p_WB_m").at(1).get<double>());
+}
 
 void to_json(nlohmann::json& j, const EpisodeMetrics& m) {
   j = {{"duration_s", m.duration_s},
        {"walking_s", m.walking_s},
        {"distance_m", m.distance_m},
        {"mass_kg", m.mass_kg},
+       {"transport_J", m.transport_J},
        {"energy", m.energy},
        {"cot_mech_abs", m.cot_mech_abs},
        {"cot_mech_pos", m.cot_mech_pos},
@@ -289,6 +328,7 @@ void from_json(const nlohmann::json& j, EpisodeMetrics& m) {
   j.at("walking_s").get_to(m.walking_s);
   j.at("distance_m").get_to(m.distance_m);
   j.at("mass_kg").get_to(m.mass_kg);
+  m.transport_J = j.value("transport_J", 0.0);  // not in older results
   j.at("energy").get_to(m.energy);
   j.at("cot_mech_abs").get_to(m.cot_mech_abs);
   j.at("cot_mech_pos").get_to(m.cot_mech_pos);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "analysis/estimation_metrics.h"
 #include "analysis/model_metrics.h"
 #include "core/log/row.h"
+#include "core/math/types.h"
 
 namespace scoria::analysis {
 
@@ -25,7 +27,10 @@ struct EnergyBudget {
   double error_J = 0.0;  // sum of magnitudes: what the integrator made or lost
 };
 
-/// Cost of transport of one steady stretch: energy over m g d.
+/// Episodes that went less, standing and turning in place, have no cost of transport.
+inline constexpr double kLeastWay_m = 1.0;
+
+/// Cost of transport of one steady window: energy over ∫ m g ds. What counts as steady: METRICS.md.
 struct SpeedWindow {
   double v_mps = 0.0;  // distance over time
   double command_mps = 0.0;
@@ -64,18 +69,20 @@ class TimeHistogram {
   long count_ = 0;
 };
 
-/// A fall and when it happened.
+/// A fall: when, why, and where the trunk was. Results of older versions lack the place.
 struct FallEvent {
   double time_s = 0.0;
   std::string cause;
+  std::optional<Vec2> p_WB = std::nullopt;  // m, horizontal
 };
 
 /// Everything reported of one episode. Definitions: docs/METRICS.md.
 struct EpisodeMetrics {
   double duration_s = 0.0, walking_s = 0.0;
   double distance_m = 0.0;  // half-second chords of the trunk's path, placements excluded
-  double mass_kg = 0.0;
-  Energy energy;  // while walking
+  double mass_kg = 0.0;     // of the last row
+  double transport_J = 0.0;  // ∫ m g ds over the distance: what cost of transport is relative to
+  Energy energy;             // while walking
   EnergyBudget budget;
   double cot_mech_abs = 0.0, cot_mech_pos = 0.0, cot_electrical = 0.0, cot_battery = 0.0;
   std::vector<SpeedWindow> windows;
@@ -92,9 +99,7 @@ class MetricsAccumulator {
  public:
   explicit MetricsAccumulator(double gravity_mps2) : gravity_mps2_(gravity_mps2) {}
   void AddRow(const core::LogRow& row, const core::SolveTimes& times);
-  void AddFall(double time_s, const std::string& cause) {
-    metrics_.falls.push_back({time_s, cause});
-  }
+  void AddFall(const FallEvent& fall) { metrics_.falls.push_back(fall); }
   [[nodiscard]] EpisodeMetrics Finish();
 
  private:
@@ -108,6 +113,9 @@ class MetricsAccumulator {
   void AddTracking(const core::LogRow& row);
   void StartStretch(const core::LogRow& row);
   void StartSteady(const core::LogRow& row);
+  void CloseChord(const core::LogRow& row);
+  void StartWindow(const core::LogRow& row);
+  void DropWindowBefore(double fall_s);
   void EndStretch();
   void CloseBudget();
 
@@ -117,7 +125,11 @@ class MetricsAccumulator {
   std::uint32_t segment_ = 0;
   core::LogRow previous_;
   Mark chord_, window_;
-  double window_distance_m_ = 0.0;
+  double chord_mass_kgs_ = 0.0;  // ∫ m dt over the open chord
+  double window_distance_m_ = 0.0, window_transport_J_ = 0.0;
+  double window_command_m_ = 0.0;  // that the command asks for over the window
+  double settled_s_ = 0.0;         // from when on windows may begin
+  double last_window_s_ = -1.0;    // end of the last one of this stretch
   // Tracking.
   core::LogRow steady_;  // with which the present command began
   double stand_x_m_ = 0.0, stand_y_m_ = 0.0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include <Eigen/Dense>
 #include <boost/math/distributions/beta.hpp>
@@ -28,25 +29,70 @@ double Quantile(std::vector<double>& sorted_in_place, double share) {
          (at - static_cast<double>(i)) * (sorted_in_place[next] - sorted_in_place[i]);
 }
 
-Eigen::Vector3d FitOnce(std::span<const double> x, std::span<const double> y, int terms) {
-  const auto n = static_cast<Eigen::Index>(x.size());
+///  weights of the points.  b, c, a of y = b + c x + a / x; zero where not fitted.
+Eigen::Vector3d FitWeighted(std::span<const CurvePoint> points, const Eigen::ArrayXd& weights,
+                            int terms) {
+  const auto n = static_cast<Eigen::Index>(points.size());
   Eigen::MatrixXd A(n, terms);
   Eigen::VectorXd b(n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const auto k = static_cast<std::size_t>(i);
+    const CurvePoint& p = points[static_cast<std::size_t>(i)];
     A(i, 0) = 1.0;
-    if (terms > 1) A(i, 1) = x[k];
-    if (terms > 2) A(i, 2) = 1.0 / x[k];
-    b[i] = y[k];
+    if (terms > 1) A(i, 1) = p.x;
+    if (terms > 2) A(i, 2) = 1.0 / p.x;
+    A.row(i) *= weights[i];
+    b[i] = weights[i] * p.y;
   }
-  const Eigen::VectorXd solution = A.colPivHouseholderQr().solve(b);
   Eigen::Vector3d c = Eigen::Vector3d::Zero();
-  c.head(terms) = solution;
+  c.head(terms) = A.colPivHouseholderQr().solve(b);
   return c;
 }
 
 double Evaluate(const Eigen::Vector3d& c, double x) {
   return c[0] + c[1] * x + (c[2] != 0.0 ? c[2] / x : 0.0);
+}
+
+/// Source: [Huber1964], with the tuning constant of 95 % efficiency under normal errors.
+Eigen::Vector3d FitRobustly(std::span<const CurvePoint> points, int terms) {
+  constexpr double kTuning = 1.345, kNormalConsistency = 1.4826;
+  constexpr int kIterations = 20;
+  const auto n = static_cast<Eigen::Index>(points.size());
+  Eigen::Vector3d c = FitWeighted(points, Eigen::ArrayXd::Ones(n), terms);
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    std::vector<double> residuals;
+    for (const CurvePoint& p : points) residuals.push_back(std::abs(p.y - Evaluate(c, p.x)));
+    const double scale = kNormalConsistency * SampleQuantile(residuals, 0.5);
+    if (scale <= 0.0) break;
+    Eigen::ArrayXd weights(n);  // square roots of the weights of the squares
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double u = residuals[static_cast<std::size_t>(i)] / (kTuning * scale);
+      weights[i] = u > 1.0 ? std::sqrt(1.0 / u) : 1.0;
+    }
+    c = FitWeighted(points, weights, terms);
+  }
+  return c;
+}
+
+/// Percentiles of the curves through resampled clusters, at the points of the fit's grid.
+void AddBand(const std::vector<std::vector<CurvePoint>>& clusters, int terms, std::uint64_t seed,
+             CurveFit& fit) {
+  constexpr int kResamples = 400;
+  core::Rng rng(seed, 1, core::Stream::kBootstrap);
+  std::vector<std::vector<double>> samples(fit.x.size());
+  for (int r = 0; r < kResamples; ++r) {
+    std::vector<CurvePoint> resampled;
+    for (std::size_t i = 0; i < clusters.size(); ++i) {
+      const auto& pick = clusters[static_cast<std::size_t>(
+          rng.NextUniform() * static_cast<double>(clusters.size()))];
+      resampled.insert(resampled.end(), pick.begin(), pick.end());
+    }
+    const Eigen::Vector3d c = FitRobustly(resampled, terms);
+    for (std::size_t i = 0; i < samples.size(); ++i) samples[i].push_back(Evaluate(c, fit.x[i]));
+  }
+  for (auto& s : samples) {
+    fit.low.push_back(Quantile(s, 0.025));
+    fit.high.push_back(Quantile(s, 0.975));
+  }
 }
 
 }  // namespace
@@ -153,7 +199,7 @@ Dispersion CheckShares(std::span<const PairedCounts> terrains) {
 Interval BootstrapRateRatio(std::span<const PairedCounts> terrains, std::uint64_t seed,
                             int resamples, double confidence) {
   if (terrains.size() < 3) return {0.0, kInfinity};
-  core::Rng rng(seed, 0, core::Stream::kOperator);
+  core::Rng rng(seed, 0, core::Stream::kBootstrap);
   std::vector<double> ratios;
   for (int i = 0; i < resamples; ++i) {
     PairedCounts sum;
@@ -173,46 +219,39 @@ Interval BootstrapRateRatio(std::span<const PairedCounts> terrains, std::uint64_
   return {Quantile(ratios, alpha / 2.0), Quantile(ratios, 1.0 - alpha / 2.0)};
 }
 
-CurveFit FitCostCurve(std::span<const double> x, std::span<const double> y, int terms,
-                      std::uint64_t seed) {
+
+CurveFit FitCostCurve(std::span<const CurvePoint> points, int terms, std::uint64_t seed) {
   CurveFit fit;
-  if (x.size() < 3) return fit;
-  const Eigen::Vector3d c = FitOnce(x, y, terms);
+  if (points.size() < 3) return fit;
+  const Eigen::Vector3d c = FitRobustly(points, terms);
   fit.valid = true;
   fit.b = c[0];
   fit.c = c[1];
   fit.a = c[2];
-  double mean = 0.0, residual = 0.0, total = 0.0;
-  for (const double v : y) mean += v / static_cast<double>(y.size());
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    residual += std::pow(y[i] - Evaluate(c, x[i]), 2);
-    total += std::pow(y[i] - mean, 2);
+  double mean = 0.0, residual = 0.0, total = 0.0, low = kInfinity, high = -kInfinity;
+  for (const CurvePoint& p : points) mean += p.y / static_cast<double>(points.size());
+  std::map<std::size_t, std::vector<CurvePoint>> clusters;
+  for (const CurvePoint& p : points) {
+    residual += std::pow(p.y - Evaluate(c, p.x), 2);
+    total += std::pow(p.y - mean, 2);
+    low = std::min(low, p.x);
+    high = std::max(high, p.x);
+    clusters[p.cluster].push_back(p);
   }
   fit.r2 = total > 0.0 ? 1.0 - residual / total : 0.0;
-
-  constexpr int kGrid = 40, kResamples = 400;
-  const auto [low, high] = std::minmax_element(x.begin(), x.end());
+  constexpr int kGrid = 40;
   for (int i = 0; i < kGrid; ++i) {
-    fit.x.push_back(*low + (*high - *low) * i / (kGrid - 1.0));
+    fit.x.push_back(low + (high - low) * i / (kGrid - 1.0));
     fit.y.push_back(Evaluate(c, fit.x.back()));
   }
-  core::Rng rng(seed, 1, core::Stream::kOperator);
-  std::vector<std::vector<double>> samples(kGrid);
-  std::vector<double> xs(x.size()), ys(x.size());
-  for (int r = 0; r < kResamples; ++r) {
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      const auto pick = static_cast<std::size_t>(rng.NextUniform() * static_cast<double>(x.size()));
-      xs[i] = x[pick];
-      ys[i] = y[pick];
-    }
-    const Eigen::Vector3d cs = FitOnce(xs, ys, terms);
-    for (std::size_t i = 0; i < kGrid; ++i) samples[i].push_back(Evaluate(cs, fit.x[i]));
-  }
-  for (auto& s : samples) {
-    fit.low.push_back(Quantile(s, 0.025));
-    fit.high.push_back(Quantile(s, 0.975));
-  }
+  std::vector<std::vector<CurvePoint>> episodes;
+  for (auto& [cluster, members] : clusters) episodes.push_back(std::move(members));
+  AddBand(episodes, terms, seed, fit);
   return fit;
+}
+
+std::string_view CostCurveFormula(int terms) noexcept {
+  return terms > 2 ? "b + c v + a/v" : terms > 1 ? "b + c v" : "b";
 }
 
 }  // namespace scoria::analysis

@@ -2,6 +2,7 @@
 #include "app/episode_files.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <optional>
 
@@ -11,6 +12,7 @@
 #include "app/qp_recorder.h"
 #include "app/version.h"
 #include "core/files.h"
+#include "core/hash.h"
 #include "terrains/generator.h"
 
 namespace scoria::app {
@@ -25,6 +27,27 @@ nlohmann::json TimesToJson(const core::StageTimes& times, double scale) {
 nlohmann::json CountersToJson(const Counters& counters) {
   nlohmann::json json;
   for (const auto& [what, name] : EnumNames(Count{})) json[name] = counters[what];
+  return json;
+}
+
+/// Episodes with equal ids walk the same ground.
+std::string GroundId(const Scenario& scenario) {
+  core::Hash64 hash;
+  hash.Add(core::EmitYaml(core::WriteConfig(scenario.terrain)));
+  hash.Add(fmt::format("{}", scenario.seed));
+  return fmt::format("{:016x}", hash.value());
+}
+
+/// Points half a metre apart are enough to draw it.
+nlohmann::json RouteToJson(const Route& route) {
+  constexpr double kSpacing_m = 0.5;
+  nlohmann::json json = nlohmann::json::array();
+  std::optional<Vec2> last;
+  for (const Vec2& p : route) {
+    if (last && (p - *last).norm() < kSpacing_m) continue;
+    json.push_back({std::round(100.0 * p.x()) / 100.0, std::round(100.0 * p.y()) / 100.0});
+    last = p;
+  }
   return json;
 }
 
@@ -56,10 +79,7 @@ EpisodeReport RunToFolder(const Scenario& scenario, const RunOptions& options) {
     accumulator.AddRow(row, times);
   };
   sinks.on_event = [&](double time_s, const std::string& kind, const std::string& detail) {
-    if (kind == "fall") {
-      ++falls;
-      accumulator.AddFall(time_s, detail);
-    }
+    if (kind == "fall") ++falls;
     if (options.on_event) options.on_event(time_s, kind, detail);
   };
   if (!options.save_qps.empty() && !scenario.controller_changes.empty())
@@ -77,6 +97,7 @@ EpisodeReport RunToFolder(const Scenario& scenario, const RunOptions& options) {
 
   EpisodeReport report;
   report.result = RunEpisode(scenario, robot, ground, sinks);
+  for (const analysis::FallEvent& fall : report.result.fall_events) accumulator.AddFall(fall);
   report.metrics = accumulator.Finish();
   if (file) file->Close();
   const EpisodeResult& r = report.result;
@@ -98,6 +119,8 @@ EpisodeReport RunToFolder(const Scenario& scenario, const RunOptions& options) {
       {"real_time_factor", report.real_time_factor},
       {"us_per_step", TimesToJson(r.times, scenario.physics.step_s / simulated_s * 1e6)},
       {"terrain", terrain},
+      {"ground", GroundId(scenario)},
+      {"route", RouteToJson(r.route)},
       {"metrics", report.metrics}};
   core::WriteText(options.folder / "result.json.part", json.dump(2) + "\n");
   fs::rename(options.folder / "result.json.part",

@@ -11,14 +11,22 @@ FallMonitor::FallMonitor(const FallParams& params, double nominal_trunk_height_m
     : params_(params), nominal_height_m_(nominal_trunk_height_m), step_s_(step_s) {}
 
 FallCause FallMonitor::Update(const sim::Truth& truth, double ground_z_m) noexcept {
-  const double up = truth.state.R_WB(2, 2);
   pressed_s_ = truth.trunk_force_N > params_.trunk_force_N ? pressed_s_ + step_s_ : 0.0;
   const double height_m = truth.state.p_WB.z() - ground_z_m;
   low_s_ = height_m < params_.height_share * nominal_height_m_ ? low_s_ + step_s_ : 0.0;
-  if (std::acos(std::clamp(up, -1.0, 1.0)) > params_.tilt_rad) return FallCause::kTilt;
+  if (HasTipped(truth)) return FallCause::kTilt;
   if (pressed_s_ > params_.trunk_force_s) return FallCause::kTrunkContact;
   if (low_s_ > params_.height_s) return FallCause::kLow;
   return FallCause::kNone;
+}
+
+FallCause FallMonitor::UpdateStandUp(const sim::Truth& truth, double overdue_s) const noexcept {
+  if (HasTipped(truth)) return FallCause::kTilt;
+  return overdue_s > params_.stand_up_s ? FallCause::kNotStanding : FallCause::kNone;
+}
+
+bool FallMonitor::HasTipped(const sim::Truth& truth) const noexcept {
+  return std::acos(std::clamp(truth.state.R_WB(2, 2), -1.0, 1.0)) > params_.tilt_rad;
 }
 
 bool FallMonitor::UpdateStuck(const Vec3& p_WB, double commanded_mps) noexcept {

@@ -16,6 +16,7 @@ struct FallParams {
   double stuck_distance_m = 0.5, stuck_s = 10.0;
   double lie_s = 0.5;
   double stand_s = 0.6;
+  double stand_up_s = 3.0;
   template <class Archive>
   void Serialize(Archive& a) {
     a.Field("trunk_force_N", trunk_force_N, {.min = 0.0, .max = 1e4});
@@ -29,15 +30,21 @@ struct FallParams {
     a.Field("lie_s", lie_s,
             {.min = 0.0, .max = 10.0, .doc = "before the operator lifts the robot"});
     a.Field("stand_s", stand_s, {.min = 0.0, .max = 10.0, .doc = "standing before walking on"});
+    a.Field("stand_up_s", stand_up_s,
+            {.min = 0.0,
+             .max = 600.0,
+             .doc = "a robot that the controller has not taken over so long after the stand-up "
+                    "should have ended has fallen"});
   }
 };
 
-enum class FallCause { kNone, kTrunkContact, kTilt, kLow };
-constexpr std::array<std::pair<FallCause, std::string_view>, 4> EnumNames(FallCause) {
+enum class FallCause { kNone, kTrunkContact, kTilt, kLow, kNotStanding };
+constexpr std::array<std::pair<FallCause, std::string_view>, 5> EnumNames(FallCause) {
   return {{{FallCause::kNone, "none"},
            {FallCause::kTrunkContact, "trunk_contact"},
            {FallCause::kTilt, "tilt"},
-           {FallCause::kLow, "low"}}};
+           {FallCause::kLow, "low"},
+           {FallCause::kNotStanding, "not_standing"}}};
 }
 
 /// Watches the truth, every physics step.
@@ -48,6 +55,10 @@ class FallMonitor {
   /// @returns the cause in the step in which the robot counts as fallen, else kNone.
   [[nodiscard]] FallCause Update(const sim::Truth& truth, double ground_z_m) noexcept;
 
+  /// The same before the controller is in charge, where a trunk on the ground is no fall.
+  /// @param overdue_s time since the stand-up should have ended; negative before.
+  [[nodiscard]] FallCause UpdateStandUp(const sim::Truth& truth, double overdue_s) const noexcept;
+
   /// @returns true once per stuck episode: less than stuck_distance in stuck_s while commanded to
   /// walk, or less than half of what a slow command asks for in that time. Turning in place is not
   /// walking.
@@ -57,6 +68,8 @@ class FallMonitor {
   void Reset() noexcept;
 
  private:
+  [[nodiscard]] bool HasTipped(const sim::Truth& truth) const noexcept;
+
   FallParams params_;
   double nominal_height_m_, step_s_;
   double pressed_s_ = 0.0, low_s_ = 0.0, stuck_s_ = 0.0;

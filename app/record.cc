@@ -300,7 +300,8 @@ void Recorder::RecordStart(double time_s, const controller::Start& start) {
   Write(RecordedTopics()[kStart], time_s, message);
 }
 
-void Recorder::RecordInput(double time_s, const SensorFrame& z, const Command& command) {
+void Recorder::RecordInput(double time_s, const SensorFrame& z, const Command& command,
+                           const controller::SolverFaults& faults) {
   msg::ControllerInput m;
   m.step = z.step;
   m.imu_time_s = z.imu_time_s;
@@ -317,6 +318,8 @@ void Recorder::RecordInput(double time_s, const SensorFrame& z, const Command& c
   m.roll_rad = command.roll_rad;
   m.pitch_rad = command.pitch_rad;
   m.pattern = static_cast<std::uint8_t>(command.pattern);
+  m.mpc_fault = static_cast<std::uint8_t>(faults.mpc);
+  m.wbc_fault = static_cast<std::uint8_t>(faults.wbc);
   Write(RecordedTopics()[kInput], time_s, m);
 }
 

@@ -45,7 +45,8 @@ class Recorder {
                    const std::string& detail);
   void RecordStart(double time_s, const controller::Start& start);
   /// Every physics step.
-  void RecordInput(double time_s, const SensorFrame& z, const Command& command);
+  void RecordInput(double time_s, const SensorFrame& z, const Command& command,
+                   const controller::SolverFaults& faults);
   void RecordHash(std::int64_t step, double time_s, std::uint64_t hash);
 
  private:

@@ -48,6 +48,11 @@ Command ToCommand(const msg::ControllerInput& m) {
   return command;
 }
 
+controller::SolverFaults ToFaults(const msg::ControllerInput& m) {
+  return {static_cast<controller::SolverFault>(m.mpc_fault),
+          static_cast<controller::SolverFault>(m.wbc_fault)};
+}
+
 RobotState TrueState(const core::LogRow& row) {
   RobotState s;
   s.p_WB = ToVec3(row.p_WB_m);
@@ -108,7 +113,7 @@ class Replay {
     if (!controller_ || m.step != next_step_) return;
     ++next_step_;
     ++result_.steps;
-    const controller::ControlOutput& out = controller_->Step(ToFrame(m), ToCommand(m));
+    const controller::ControlOutput& out = controller_->Step(ToFrame(m), ToCommand(m), ToFaults(m));
     if (row_ && row_->step == m.step) Compare(out);
   }
 
@@ -123,7 +128,8 @@ class Replay {
                       again.est_rpy_rad == row_->est_rpy_rad && again.nis == row_->nis &&
                       again.learned_mass_kg == row_->learned_mass_kg &&
                       again.contact_source == row_->contact_source &&
-                      again.contact == row_->contact && again.est_f_F_W_N == row_->est_f_F_W_N;
+                      again.contact == row_->contact && again.est_f_F_W_N == row_->est_f_F_W_N &&
+                      out.qualities == row_->stage_quality && out.fallen_back == row_->fallen_back;
     if (!same && result_.identical) {
       result_.identical = false;
       result_.first_difference_s = row_->time_s;

@@ -51,7 +51,7 @@ class Episode {
         actuation_(robot),
         sensors_(robot, scenario.sensors, scenario.sensor_faults, gravity_W_,
                  scenario.physics.step_s, scenario.seed),
-        operator_(scenario.operation, ground),
+        operator_(scenario.operation, robot, ground),
         fault_rng_(scenario.seed, 0, core::Stream::kSolverFault),
         fall_monitor_(scenario.fall, robot.config.nominal_height_m, scenario.physics.step_s),
         wbc_every_(
@@ -61,7 +61,8 @@ class Episode {
         changes_(ChangedControllers(scenario)),
         pushes_(scenario.pushes.size()) {
     if (sinks.messages != nullptr) recorder_.emplace(*sinks.messages, scenario);
-    Place(operator_.start_W(), operator_.start_yaw_rad(), scenario.start == StartPose::kStanding);
+    result_.route = operator_.route();
+    SetDown(operator_.start(), 0.0, scenario.start == StartPose::kStanding);
   }
 
   EpisodeResult Run() {
@@ -110,13 +111,15 @@ class Episode {
     CountInjected(faults, control);
     AnnounceSensors(control.contact);
     AnnounceTransitions(control.transitions);
-    Record(z, command, control);
+    Record(z, command, faults, control);
     if (sinks_.on_control) sinks_.on_control(*controller_, control);
     lap.Book(core::Stage::kRecord);
     world_.SetTrunkWrench(PushForce(), Vec3::Zero());
     ChangePayloads();
     ChangeController();
-    world_.Step(actuation_.Update(control.command, z.q, z.qd, dt));
+    const LegArray<Vec3> qd_before = world_.truth().state.qd;
+    world_.Step(actuation_.Update(control.command, {z.q, z.qd}, qd_before, dt));
+    actuation_.Meter(qd_before, world_.truth().state.qd, dt);
     if (control.operating) operating_s_ += dt;
     lap.Book(core::Stage::kPhysics);
     Watch(command);
@@ -232,7 +235,7 @@ class Episode {
     return f_W;
   }
 
-  void Record(const SensorFrame& z, const Command& command,
+  void Record(const SensorFrame& z, const Command& command, const controller::SolverFaults& faults,
               const controller::ControlOutput& control) {
     if (step_ % wbc_every_ == 0 && (sinks_.on_row || recorder_)) {
       const sim::Truth& truth = world_.truth();
@@ -257,7 +260,7 @@ class Episode {
       if (sinks_.on_row) sinks_.on_row(row, times);
       if (recorder_) recorder_->Record(record, row);
     }
-    if (recorder_) recorder_->RecordInput(time_s(), z, command);
+    if (recorder_) recorder_->RecordInput(time_s(), z, command, faults);
     if (step_ % kHashEvery == 0) {
       result_.state_hash = HashState(world_.truth().state, result_.state_hash);
       if (recorder_) recorder_->RecordHash(step_, time_s(), result_.state_hash);
@@ -275,22 +278,32 @@ class Episode {
       if (lying_s_ >= scenario_.fall.lie_s) PutOnFeet();
       return;
     }
-    if (!control_in_charge()) return;
+    if (!control_in_charge()) {
+      const FallCause cause = fall_monitor_.UpdateStandUp(truth, time_s() - stand_up_ends_s_);
+      if (cause != FallCause::kNone) Fall(cause);
+      return;
+    }
     odometer_.Update(p_WB.head<2>(), scenario_.physics.step_s);
     result_.walked_m = odometer_.walked_m();
     const FallCause cause = fall_monitor_.Update(truth, ground_.HeightAt(p_WB.x(), p_WB.y()));
     if (cause != FallCause::kNone) {
-      fallen_ = true;
-      CloseChord();
-      lying_s_ = 0.0;
-      ++result_.falls;
-      Announce("fall", fmt::format("{} at x {:.3f} m, y {:.3f} m", core::EnumName(cause), p_WB.x(),
-                                   p_WB.y()));
+      Fall(cause);
     } else if (fall_monitor_.UpdateStuck(p_WB, std::hypot(command.v_x_mps, command.v_y_mps))) {
       ++result_.stuck;
       Announce("stuck", fmt::format("at x {:.3f} m, y {:.3f} m", p_WB.x(), p_WB.y()));
       PutOnFeet();
     }
+  }
+
+  void Fall(FallCause cause) {
+    const Vec3& p_WB = world_.truth().state.p_WB;
+    const std::string_view name = core::EnumName(cause);
+    fallen_ = true;
+    CloseChord();
+    lying_s_ = 0.0;
+    ++result_.falls;
+    result_.fall_events.push_back({time_s(), std::string(name), p_WB.head<2>()});
+    Announce("fall", fmt::format("{} at x {:.3f} m, y {:.3f} m", name, p_WB.x(), p_WB.y()));
   }
 
   [[nodiscard]] bool control_in_charge() const { return operating_s_ > 0.0; }
@@ -300,29 +313,29 @@ class Episode {
     result_.walked_m = odometer_.walked_m();
   }
 
-  /// As in the field: the robot is set on its feet where it fell. If it has not come away from its
-  /// last place it is carried a little further, and twice as far each time that this repeats.
+  /// As in the field: the robot is set on its feet on the nearest good ground ahead. If it has not
+  /// come away from its last place, the next 0.25 m are left out, and twice as much each time that
+  /// this repeats.
   void PutOnFeet() {
-    constexpr double kSamePlace_m = 1.0, kFurther_m = 0.25, kFurthest_m = 2.0;
+    constexpr double kSamePlace_m = 1.0, kFurther_m = 0.25, kFurthest_m = 2.0, kEdge_m = 3.0;
     CloseChord();
-    Vec2 place = world_.truth().state.p_WB.head<2>();
-    const double heading = operator_.route().empty()
-                               ? core::RpyFromRotation(world_.truth().state.R_WB).z()
-                               : operator_.HeadingAt(place);
-    const bool same = last_place_ && (*last_place_ - place).norm() < kSamePlace_m;
+    const RobotState& state = world_.truth().state;
+    const double inside_m = std::max(0.0, ground_.half_size_m() - kEdge_m);
+    const Vec2 here_W = state.p_WB.head<2>().cwiseMax(-inside_m).cwiseMin(inside_m);
+    const bool same = last_place_W_ && (*last_place_W_ - here_W).norm() < kSamePlace_m;
     further_m_ = same ? std::clamp(2.0 * further_m_, kFurther_m, kFurthest_m) : 0.0;
-    place += further_m_ * Vec2(std::cos(heading), std::sin(heading));
-    last_place_ = place;
-    const double margin_m = 1.0, edge_m = ground_.half_size_m() - margin_m;
-    place = place.cwiseMax(-edge_m).cwiseMin(edge_m);
-    Place(place, heading, true);
-    Announce("placed", fmt::format("at x {:.3f} m, y {:.3f} m", place.x(), place.y()));
+    const Place place = SetDown({here_W, core::RpyFromRotation(state.R_WB).z()}, further_m_, true);
+    last_place_W_ = place.p_WB;
+    Announce("placed", fmt::format("at x {:.3f} m, y {:.3f} m", place.p_WB.x(), place.p_WB.y()));
   }
 
-  /// Puts the robot down at rest, on its feet or folded, and starts a fresh controller.
-  void Place(const Vec2& p_W, double yaw_rad, bool standing) {
-    const RobotState state = standing ? PlaceStanding(robot_, ground_, p_W, yaw_rad)
-                                      : PlaceLying(robot_, ground_, p_W, yaw_rad);
+  /// Puts the robot down at rest near `wanted`, on its feet or folded, where it stands well, and
+  /// starts a fresh controller. @returns where.
+  Place SetDown(const Place& wanted, double ahead_m, bool standing) {
+    const Place place = ChoosePlace(robot_, ground_, operator_.PlacesAhead(wanted, ahead_m));
+    operator_.Resume(place);
+    const RobotState state = standing ? PlaceStanding(robot_, ground_, place)
+                                      : PlaceLying(robot_, ground_, place);
     world_.Reset(state);
     sensors_.Reset();
     actuation_.Reset();
@@ -331,7 +344,7 @@ class Episode {
     const std::int64_t next_step = controller_ ? step_ + 1 : 0;
     const controller::Start start{
         standing ? controller::Start::Pose::kStanding : controller::Start::Pose::kLying,
-        {p_W, ground_.HeightAt(p_W.x(), p_W.y()), yaw_rad},
+        {place.p_WB, ground_.HeightAt(place.p_WB.x(), place.p_WB.y()), place.yaw_rad},
         next_step,
         controller_ ? std::optional(controller_->model()) : std::nullopt};
     controller_ = std::make_unique<controller::Controller>(
@@ -339,8 +352,10 @@ class Episode {
     if (recorder_) recorder_->RecordStart(time_s(), start);
     fallen_ = false;
     operating_s_ = 0.0;
+    stand_up_ends_s_ = time_s() + controller::CalcStandUpTime(ControllerNow().stand_up, !standing);
     odometer_.Lift();
     ++segment_;
+    return place;
   }
 
   [[nodiscard]] const controller::ControllerParams& ControllerNow() const {
@@ -388,6 +403,7 @@ class Episode {
   std::uint32_t segment_ = 0;
   double operating_s_ = 0.0, walking_s_ = 0.0, lying_s_ = 0.0;
   double further_m_ = 0.0;  // than where it fell, the robot was put last
+  double stand_up_ends_s_ = 0.0;
   bool fallen_ = false;
   struct ActivePush {
     double until_s;
@@ -397,7 +413,7 @@ class Episode {
   std::size_t next_change_ = 0;
   LegArray<ContactSource> contact_source_;
   std::vector<std::optional<ActivePush>> pushes_;  // those that have started
-  std::optional<Vec2> last_place_;
+  std::optional<Vec2> last_place_W_;
 };
 
 }  // namespace

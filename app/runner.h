@@ -4,6 +4,7 @@
 #include <atomic>
 #include <functional>
 
+#include "analysis/metrics.h"
 #include "app/record.h"
 #include "app/scenario.h"
 #include "core/log/row.h"
@@ -35,6 +36,8 @@ struct EpisodeResult {
   double duration_s = 0.0;  // simulated
   double walked_m = 0.0;    // as the operator paces it: half-second chords, placements excluded
   int falls = 0, stuck = 0;
+  std::vector<analysis::FallEvent> fall_events;  // as many as falls
+  Route route;                                   // the operator's; empty without one
   std::uint64_t state_hash = 0;        // over every state that was hashed on the way
   Counters counters, injected;         // what did not go to plan; which of it was played
   std::int64_t unconverged_steps = 0;  // of the physics' contact solver

@@ -15,6 +15,14 @@ std::string NameOfSet(std::size_t change) {
 }  // namespace
 
 std::string Scenario::Problem() const {
+  if (const auto* programme = std::get_if<VelocityProgramme>(&operation)) {
+    const std::vector<VelocityStep>& steps = programme->steps;
+    for (std::size_t i = 1; i < steps.size(); ++i) {
+      if (steps[i].at_s < steps[i - 1].at_s)
+        return fmt::format("operator.steps[{}].at_s: {} is before {}, that of the step above", i,
+                           steps[i].at_s, steps[i - 1].at_s);
+    }
+  }
   for (std::size_t i = 1; i < controller_changes.size(); ++i) {
     if (controller_changes[i].at_s < controller_changes[i - 1].at_s)
       return fmt::format("controller_changes[{}].at_s: {} is before {}, that of the change above",

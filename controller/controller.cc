@@ -77,7 +77,9 @@ const ControlOutput& Controller::Step(const SensorFrame& z, const Command& comma
   out_.transitions.count = 0;
   if (!operating_) {
     const double since_s = static_cast<double>(clock_.step() - first_step_) * clock_.step_s();
-    out_.command = stand_up_.Update(out_.estimate.state.q, since_s);
+    const RobotState& state = out_.estimate.state;
+    out_.command =
+        guard_.Check(stand_up_.Update(state.q, since_s), state, GuardMode::kStandUp, counters_);
     operating_ = stand_up_.IsDone(since_s) && out_.estimate.ready && clock_.Due(mpc_every_);
     mpc_since_ = clock_.step();
   }
@@ -107,9 +109,10 @@ void Controller::Reconfigure(const ControllerParams& params) {
   ContactParams other_choice = before.contact;
   other_choice.source = params.contact.source;
   if (Same(params.contact, other_choice)) {
-    contact_->SetChoice(params.contact.source);
+    contact_->SetChoice(ContactChoiceInForce());
   } else {
     contact_.emplace(params.contact, robot_, gravity_mps2, clock_.step_s());
+    contact_->SetChoice(ContactChoiceInForce());
   }
   if (!Same(params.estimator, before.estimator)) {
     estimator_ = MakeStateEstimator(params.estimator, robot_, gravity_mps2, {});
@@ -239,7 +242,7 @@ void Controller::StepBody(SolverFault fault) noexcept {
   out_.wbc_updated = true;
   out_.wbc_status = result.status;
   out_.wbc_iterations = result.iterations;
-  out_.command = guard_.Check(result.command, wb_.state, counters_);
+  out_.command = guard_.Check(result.command, wb_.state, GuardMode::kWalk, counters_);
   out_.f_F_W = result.f_F_W;
   out_.target = result.target;
 }
@@ -326,7 +329,13 @@ void Controller::Act(const Transition& transition) noexcept {
     estimator_->Continue(upright, params_.supervisor.doubt);
   }
   if (transition.watch == Watch::kContact)
-    contact_->SetChoice(transition.fell_back ? ContactChoice::kHierarchy : params_.contact.source);
+    contact_->SetChoice(ContactChoiceInForce());
+}
+
+/// The chosen source, or the hierarchy while the supervisor has fallen back on it.
+ContactChoice Controller::ContactChoiceInForce() const noexcept {
+  return supervisor_.HasFallenBack(Watch::kContact) ? ContactChoice::kHierarchy
+                                                    : params_.contact.source;
 }
 
 }  // namespace scoria::controller

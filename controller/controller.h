@@ -155,6 +155,7 @@ class Controller {
   void Supervise() noexcept;
   [[nodiscard]] StageReports Report() const noexcept;
   void Act(const Transition& transition) noexcept;
+  [[nodiscard]] ContactChoice ContactChoiceInForce() const noexcept;
 
   ControllerParams params_;
   const core::RobotDescription& robot_;

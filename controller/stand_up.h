@@ -23,6 +23,11 @@ struct StandUpParams {
   }
 };
 
+/// Time from the start of a controller to its taking charge, unless it has to wait for rest.
+[[nodiscard]] inline double CalcStandUpTime(const StandUpParams& params, bool lying) noexcept {
+  return (lying ? params.duration_s : 0.0) + params.hold_s;
+}
+
 /// Joint angles at which the feet stand below the neutral footholds, `height_m` the trunk's origin
 /// over the feet's centres.
 [[nodiscard]] LegArray<Vec3> StandingPose(const core::RobotDescription& robot, double height_m);
@@ -38,7 +43,7 @@ class StandUp {
   /// @param q joint angles now. @param time_s since the controller started.
   [[nodiscard]] JointCommand Update(const LegArray<Vec3>& q, double time_s) noexcept;
   [[nodiscard]] bool IsDone(double time_s) const noexcept {
-    return time_s >= (goal_ ? params_.duration_s : 0.0) + params_.hold_s;
+    return time_s >= CalcStandUpTime(params_, goal_.has_value());
   }
 
  private:

@@ -24,7 +24,8 @@ enum class Stream : std::uint32_t {
   kEncoder,
   kTorqueSensor,
   kFootForce,
-  kSensorFault
+  kSensorFault,
+  kBootstrap
 };
 
 /// Philox 4x32 with 10 rounds: a bijection of `counter` under `key`.

@@ -40,31 +40,38 @@ const JointCommand& Actuation::Delayed(const JointCommand& command, double dt_s)
   return due;
 }
 
-LegArray<Vec3> Actuation::Update(const JointCommand& given, const LegArray<Vec3>& q,
-                                 const LegArray<Vec3>& qd, double dt_s) noexcept {
+const LegArray<Vec3>& Actuation::Update(const JointCommand& given, const Encoders& measured,
+                                        const LegArray<Vec3>& qd, double dt_s) noexcept {
   const JointCommand& command = Delayed(given, dt_s);
-  const core::MotorParams& motors = robot_.config.motors;
-  double electrical_W = motors.idle_W, absolute_W = 0.0, positive_W = 0.0;
   for (const Leg leg : kLegs) {
     for (int j = 0; j < kJointsPerLeg; ++j) {
-      const double w = qd[leg][j];
-      const double wanted = command.tau_Nm[leg][j] +
-                            command.kp_Nm_per_rad[leg][j] * (command.q[leg][j] - q[leg][j]) +
-                            command.kd_Nms_per_rad[leg][j] * (command.qd[leg][j] - w);
+      const double wanted =
+          command.tau_Nm[leg][j] +
+          command.kp_Nm_per_rad[leg][j] * (command.q[leg][j] - measured.q[leg][j]) +
+          command.kd_Nms_per_rad[leg][j] * (command.qd[leg][j] - measured.qd[leg][j]);
       const double no_load = robot_.legs[leg].joints[static_cast<std::size_t>(j)].velocity_radps;
-      const double tau = Envelope(wanted, w, effort_Nm_[leg][j], no_load);
-      motor_tau_Nm_[leg][j] = tau;
-      absolute_W += std::abs(tau * w);
-      positive_W += std::max(tau * w, 0.0);
-      electrical_W += std::max(0.0, tau * w + motors.copper_loss_W_per_Nm2[j] * tau * tau);
+      motor_tau_Nm_[leg][j] = Envelope(wanted, qd[leg][j], effort_Nm_[leg][j], no_load);
     }
   }
-  energy_.mech_abs_J += absolute_W * dt_s;
-  energy_.mech_pos_J += positive_W * dt_s;
+  return motor_tau_Nm_;
+}
+
+void Actuation::Meter(const LegArray<Vec3>& qd_before, const LegArray<Vec3>& qd_after,
+                      double dt_s) noexcept {
+  const core::MotorParams& motors = robot_.config.motors;
+  double electrical_W = motors.idle_W;
+  for (const Leg leg : kLegs) {
+    for (int j = 0; j < kJointsPerLeg; ++j) {
+      const double tau = motor_tau_Nm_[leg][j];
+      const double power_W = tau * 0.5 * (qd_before[leg][j] + qd_after[leg][j]);
+      energy_.mech_abs_J += std::abs(power_W) * dt_s;
+      energy_.mech_pos_J += std::max(power_W, 0.0) * dt_s;
+      electrical_W += std::max(0.0, power_W + motors.copper_loss_W_per_Nm2[j] * tau * tau);
+    }
+  }
   energy_.electrical_J += electrical_W * dt_s;
   energy_.electrical_W = electrical_W;
   battery_.Draw(electrical_W, dt_s);
-  return motor_tau_Nm_;
 }
 
 }  // namespace scoria::sim

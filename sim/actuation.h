@@ -20,15 +20,29 @@ struct EnergyMeter {
 };
 
 /// Motors with gear: command delay, joint PD, torque-speed envelope, electrical power, battery.
+/// The drive's joint PD acts on what its encoders measure; envelope, power and energy are physics
+/// and take the true joint speeds.
 /// Rotor inertia, damping and friction of the joints act inside the physics step (World).
 class Actuation {
  public:
   explicit Actuation(const core::RobotDescription& robot);
 
-  /// Torque at the joints under `command` at joint state (q, qd), for a step of dt. Also meters the
-  /// energy.
-  [[nodiscard]] LegArray<Vec3> Update(const JointCommand& command, const LegArray<Vec3>& q,
-                                      const LegArray<Vec3>& qd, double dt_s) noexcept;
+  /// What a drive's encoders measure; borrowed for a call.
+  struct Encoders {
+    const LegArray<Vec3>& q;   // rad
+    const LegArray<Vec3>& qd;  // rad/s
+  };
+
+  /// Motor torques under `command` for a step of dt.
+  /// @param qd true joint speeds before the step, rad/s: they limit the torque.
+  [[nodiscard]] const LegArray<Vec3>& Update(const JointCommand& command, const Encoders& measured,
+                                             const LegArray<Vec3>& qd, double dt_s) noexcept;
+
+  /// Meters the energy of the step that Update's torques have just driven. The work of a constant
+  /// torque over a semi-implicit step is τ times the mean of the true speeds before and after it, as
+  /// in the energy ledger (World).
+  void Meter(const LegArray<Vec3>& qd_before, const LegArray<Vec3>& qd_after,
+             double dt_s) noexcept;
 
   /// Motor torques of the last step, before friction.
   [[nodiscard]] const LegArray<Vec3>& motor_tau_Nm() const noexcept { return motor_tau_Nm_; }

@@ -2,6 +2,7 @@
 #include "controller/estimation/inekf_estimator.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <Eigen/Cholesky>
@@ -10,6 +11,10 @@
 
 namespace scoria::controller {
 namespace {
+
+constexpr std::array<int, 5> kTiltAndVelocity = {InekfIndex::kRotation, InekfIndex::kRotation + 1,
+                                                 InekfIndex::kVelocity, InekfIndex::kVelocity + 1,
+                                                 InekfIndex::kVelocity + 2};
 
 Mat3 Isotropic(double sigma) noexcept { return sigma * sigma * Mat3::Identity(); }
 
@@ -81,22 +86,30 @@ void InekfEstimator::Start(const SensorFrame& z) noexcept {
   filter_.Set(x, CalcStartCovariance(params_, x.R_WS, gravity_mps2_));
 }
 
-void InekfEstimator::Continue(const StateEstimate& from, double doubt) noexcept {
-  constexpr double kVelocity_mps = 0.05;
+void InekfEstimator::Continue(const StateEstimate& from, double sigma_scale) noexcept {
   using I = InekfIndex;
+  constexpr double kVelocity_mps = 0.05;
+  // Of an estimator that states no covariance, as the complementary filter of linear_kf.
+  constexpr double kUnstatedTilt_rad = 0.03, kUnstatedVelocity_mps = 0.1, kUnstatedBias = 5.0;
   const RobotState& s = from.state;
   InekfState x;
   x.R_WS = s.R_WB * robot_.R_BS;
   const Vec3 p_BS_W = s.R_WB * robot_.p_BS;
   x.p_WS = s.p_WB + p_BS_W;
   x.v_WS = s.v_WB + s.w_WB.cross(p_BS_W);
-  x.gyro_bias_S = filter_.state().gyro_bias_S;
+  if (from.gyro_bias_S) x.gyro_bias_S = *from.gyro_bias_S;
   InekfEstimatorParams unsure = params_;
-  unsure.start_tilt_rad *= doubt;
-  unsure.start_gyro_bias_radps *= doubt;
-  unsure.start_accel_bias_mps2 *= doubt;
+  unsure.start_tilt_rad *= sigma_scale;
+  unsure.start_gyro_bias_radps *= sigma_scale * (from.gyro_bias_S ? 1.0 : kUnstatedBias);
+  unsure.start_accel_bias_mps2 *= sigma_scale;
   InekfCovariance P = CalcStartCovariance(unsure, x.R_WS, gravity_mps2_);
-  P.block<3, 3>(I::kVelocity, I::kVelocity) = Isotropic(doubt * kVelocity_mps);
+  P.block<3, 3>(I::kVelocity, I::kVelocity) = Isotropic(sigma_scale * kVelocity_mps);
+  StateEstimate::Mat5 stated = from.P_tilt_v;
+  if (stated.isZero()) {
+    stated.topLeftCorner<2, 2>() = Isotropic(kUnstatedTilt_rad).topLeftCorner<2, 2>();
+    stated.bottomRightCorner<3, 3>() = Isotropic(kUnstatedVelocity_mps);
+  }
+  P(kTiltAndVelocity, kTiltAndVelocity) += stated;
   filter_.Set(x, P);
   started_ = true;
 }
@@ -169,7 +182,6 @@ void InekfEstimator::LiftSlippedFeet(const LegArray<FootMeasurement>& feet, doub
 }
 
 StateEstimate InekfEstimator::Describe(const SensorFrame& z) const noexcept {
-  using I = InekfIndex;
   const InekfState& x = filter_.state();
   StateEstimate out;
   RobotState& s = out.state;
@@ -180,10 +192,8 @@ StateEstimate InekfEstimator::Describe(const SensorFrame& z) const noexcept {
   s.v_WB = x.v_WS - s.w_WB.cross(p_BS_W);
   s.q = z.q;
   s.qd = z.qd;
-  const InekfCovariance& P = filter_.covariance();
-  constexpr std::array<int, 5> kTiltAndVelocity = {I::kRotation, I::kRotation + 1, I::kVelocity,
-                                                   I::kVelocity + 1, I::kVelocity + 2};
-  out.P_tilt_v = P(kTiltAndVelocity, kTiltAndVelocity);
+  out.P_tilt_v = filter_.covariance()(kTiltAndVelocity, kTiltAndVelocity);
+  out.gyro_bias_S = x.gyro_bias_S;
   return out;
 }
 

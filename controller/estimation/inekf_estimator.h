@@ -18,7 +18,7 @@ class InekfEstimator final : public StateEstimator {
   [[nodiscard]] StateEstimate Update(const EstimatorInput& in,
                                      Counters& counters) noexcept override;
 
-  void Continue(const StateEstimate& from, double doubt) noexcept override;
+  void Continue(const StateEstimate& from, double sigma_scale) noexcept override;
 
  private:
   void Start(const SensorFrame& z) noexcept;

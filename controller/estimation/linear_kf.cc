@@ -41,6 +41,7 @@ StateEstimate LinearKf::Update(const EstimatorInput& in, Counters&) noexcept {
   out.state.w_WB = R_WB_ * w_WB_B_;
   out.state.q = in.z.q;
   out.state.qd = in.z.qd;
+  out.gyro_bias_S = gyro_bias_S_;
   return out;
 }
 
@@ -59,7 +60,10 @@ void LinearKf::Start(const RobotState& state) noexcept {
   }
 }
 
-void LinearKf::Continue(const StateEstimate& from, double) noexcept { Start(from.state); }
+void LinearKf::Continue(const StateEstimate& from, double) noexcept {
+  if (from.gyro_bias_S) gyro_bias_S_ = *from.gyro_bias_S;
+  Start(from.state);
+}
 
 /// Source: [Mahony2008], passive complementary filter with bias, gravity only.
 void LinearKf::Turn(const EstimatorInput& in) noexcept {

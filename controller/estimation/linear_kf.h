@@ -19,7 +19,7 @@ class LinearKf final : public StateEstimator {
   [[nodiscard]] StateEstimate Update(const EstimatorInput& in,
                                      Counters& counters) noexcept override;
 
-  void Continue(const StateEstimate& from, double doubt) noexcept override;
+  void Continue(const StateEstimate& from, double sigma_scale) noexcept override;
 
  private:
   using Row = Eigen::Matrix<double, 1, 6>;

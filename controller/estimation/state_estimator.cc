@@ -16,6 +16,7 @@ class TruthEstimator final : public StateEstimator {
   void Continue(const StateEstimate& from, double) noexcept override {
     last_ = {};
     last_.state = from.state;
+    last_.gyro_bias_S = from.gyro_bias_S;  // for the estimator that follows
   }
 
  private:

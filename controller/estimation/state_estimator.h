@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <variant>
 
 #include "controller/estimation/inekf_estimator_params.h"
@@ -23,6 +24,7 @@ struct StateEstimate {
   /// Of the tilt about x and y of W [rad] and of the velocity [m/s] in W, both as right-invariant
   /// errors; zero where the estimator has none.
   Mat5 P_tilt_v = Mat5::Zero();
+  std::optional<Vec3> gyro_bias_S;  // rad/s, where one was learned
   double nis = 0.0;  // normalised innovation squared of the last correction by the feet
   int nis_dof = 0;   // 0: no correction
 };
@@ -53,9 +55,11 @@ class StateEstimator {
   virtual ~StateEstimator() = default;
   [[nodiscard]] virtual StateEstimate Update(const EstimatorInput& in,
                                              Counters& counters) noexcept = 0;
-  /// Goes on from a state: another estimator's, or its own that does not fit any more.
-  /// @param doubt  how many times less sure of it than at the start.
-  virtual void Continue(const StateEstimate& from, double doubt) noexcept = 0;
+  /// Goes on from a state: another estimator's, or its own that does not fit any more. Keeps the
+  /// gyro bias that was learned.
+  /// @param sigma_scale  of the standard deviations at the start. The covariance that `from` states
+  /// comes on top; where it states none, that of a baseline without one is assumed.
+  virtual void Continue(const StateEstimate& from, double sigma_scale) noexcept = 0;
 };
 
 /// The simulator's own state, for controller studies without estimation error.

@@ -52,15 +52,15 @@ OutputGuard::OutputGuard(const SafetyParams& params, const core::RobotDescriptio
 void OutputGuard::set_params(const SafetyParams& params) noexcept {
   params_ = params;
   for (const Leg leg : kLegs) {
-    low_rad_[leg] = standing_rad_[leg] - params.working_range_rad;
-    high_rad_[leg] = standing_rad_[leg] + params.working_range_rad;
     for (int j = 0; j < kJointsPerLeg; ++j) {
       const core::JointDescription& joint = robot_.legs[leg].joints[static_cast<std::size_t>(j)];
-      double& low = low_rad_[leg][j];
-      double& high = high_rad_[leg][j];
-      low = std::max(low, joint.lower_rad + params.joint_margin_rad);
-      high = std::min(high, joint.upper_rad - params.joint_margin_rad);
+      limits_.low_rad[leg][j] = joint.lower_rad + params.joint_margin_rad;
+      limits_.high_rad[leg][j] = joint.upper_rad - params.joint_margin_rad;
     }
+    const Vec3 low_rad = standing_rad_[leg] - params.working_range_rad;
+    const Vec3 high_rad = standing_rad_[leg] + params.working_range_rad;
+    working_.low_rad[leg] = limits_.low_rad[leg].cwiseMax(low_rad);
+    working_.high_rad[leg] = limits_.high_rad[leg].cwiseMin(high_rad);
   }
 }
 
@@ -72,12 +72,13 @@ JointCommand OutputGuard::Damping() const noexcept {
 
 /// Joints beyond their range that the command would push further out get a spring and
 /// damper towards the inside instead. @returns how many.
-int OutputGuard::TurnBackAtLimits(const RobotState& state, JointCommand& command) const noexcept {
+int OutputGuard::TurnBackAtLimits(const JointRange& range, const SafetyParams& params,
+                                  const RobotState& state, JointCommand& command) noexcept {
   int turned = 0;
   for (const Leg leg : kLegs) {
     for (int j = 0; j < kJointsPerLeg; ++j) {
       const double q = state.q[leg][j], qd = state.qd[leg][j];
-      const double low = low_rad_[leg][j], high = high_rad_[leg][j];
+      const double low = range.low_rad[leg][j], high = range.high_rad[leg][j];
       if (q >= low && q <= high) continue;
       const double tau = command.tau_Nm[leg][j] +
                          command.kp_Nm_per_rad[leg][j] * (command.q[leg][j] - q) +
@@ -88,26 +89,28 @@ int OutputGuard::TurnBackAtLimits(const RobotState& state, JointCommand& command
       command.tau_Nm[leg][j] = 0.0;
       command.q[leg][j] = q < low ? low : high;
       command.qd[leg][j] = 0.0;
-      command.kp_Nm_per_rad[leg][j] = params_.joint_limit_Nm_per_rad;
-      command.kd_Nms_per_rad[leg][j] = params_.joint_limit_Nms_per_rad;
+      command.kp_Nm_per_rad[leg][j] = params.joint_limit_Nm_per_rad;
+      command.kd_Nms_per_rad[leg][j] = params.joint_limit_Nms_per_rad;
     }
   }
   return turned;
 }
 
-JointCommand OutputGuard::Check(const JointCommand& command, const RobotState& state,
+JointCommand OutputGuard::Check(const JointCommand& command, const RobotState& state, GuardMode mode,
                                 Counters& counters) noexcept {
   const bool tilted = !(state.R_WB(2, 2) >= std::cos(params_.tilt_stop_rad));  // also if not finite
-  if (tilted && !stopped_) counters.Add(Count::kTiltStop);
-  stopped_ = stopped_ || tilted;
-  if (stopped_ || !IsFinite(command)) {
+  if (tilted && !tilted_ && !stopped_) counters.Add(Count::kTiltStop);
+  tilted_ = tilted;
+  stopped_ = stopped_ || (tilted && mode == GuardMode::kWalk);
+  if (stopped_ || tilted || !IsFinite(command)) {
     counters.Add(Count::kDamping);
     return Damping();
   }
   JointCommand safe = command;
   for (const Leg leg : kLegs)
     safe.tau_Nm[leg] = safe.tau_Nm[leg].cwiseMax(-effort_Nm_[leg]).cwiseMin(effort_Nm_[leg]);
-  counters.Add(Count::kJointLimit, static_cast<std::uint64_t>(TurnBackAtLimits(state, safe)));
+  const JointRange& range = mode == GuardMode::kWalk ? working_ : limits_;
+  counters.Add(Count::kJointLimit, static_cast<std::uint64_t>(TurnBackAtLimits(range, params_, state, safe)));
   return safe;
 }
 

@@ -43,6 +43,11 @@ struct SafetyParams {
   }
 };
 
+/// How a command came about. Walking, joints also keep to the working range, and a tilt stop lasts
+/// until the next start. Standing up, a folded leg is beyond that range, and the attitude is what the
+/// accelerometer of a robot that may still move shows: beyond the tilt it is damped meanwhile.
+enum class GuardMode { kStandUp, kWalk };
+
 /// The last word on every command: what is not finite, or comes from a robot that has tipped over,
 /// becomes damping; torques stay within the motors', joints within their limits.
 class OutputGuard {
@@ -52,19 +57,24 @@ class OutputGuard {
               const LegArray<Vec3>& standing_rad);
 
   [[nodiscard]] JointCommand Check(const JointCommand& command, const RobotState& state,
-                                   Counters& counters) noexcept;
+                                   GuardMode mode, Counters& counters) noexcept;
   [[nodiscard]] JointCommand Damping() const noexcept;
 
   void set_params(const SafetyParams& params) noexcept;
 
  private:
-  [[nodiscard]] int TurnBackAtLimits(const RobotState& state, JointCommand& command) const noexcept;
+  struct JointRange {
+    LegArray<Vec3> low_rad = ZeroPerLeg(), high_rad = ZeroPerLeg();
+  };
+  [[nodiscard]] static int TurnBackAtLimits(const JointRange& range, const SafetyParams& params,
+                                            const RobotState& state,
+                                            JointCommand& command) noexcept;
 
   SafetyParams params_;
   const core::RobotDescription& robot_;
   LegArray<Vec3> effort_Nm_, standing_rad_;
-  LegArray<Vec3> low_rad_ = ZeroPerLeg(), high_rad_ = ZeroPerLeg();
-  bool stopped_ = false;
+  JointRange limits_, working_;
+  bool stopped_ = false, tilted_ = false;
 };
 
 [[nodiscard]] bool IsFinite(const JointCommand& command) noexcept;

@@ -253,6 +253,7 @@ struct ControllerInput {
   double v_x_mps = 0.0, v_y_mps = 0.0, w_z_radps = 0.0, height_m = 0.0, roll_rad = 0.0,
          pitch_rad = 0.0;
   std::uint8_t pattern = 0;
+  std::uint8_t mpc_fault = 0, wbc_fault = 0;  // SolverFault that was played
   template <class Archive>
   void Serialize(Archive& a) {
     a("step", step);
@@ -270,6 +271,8 @@ struct ControllerInput {
     a("roll_rad", roll_rad);
     a("pitch_rad", pitch_rad);
     a("pattern", pattern);
+    a("mpc_fault", mpc_fault);
+    a("wbc_fault", wbc_fault);
   }
 };
 

@@ -59,6 +59,32 @@ TEST(Contact, DelaysAreMeasuredOnTheGridOfRows) {
   EXPECT_TRUE(m.HasDetection());
 }
 
+// The same walk at other row rates has the same numbers: limits are times, not row counts.
+TEST(Contact, RowRateDoesNotMatter) {
+  const auto run = [](double row_s) {
+    ContactAccumulator e;
+    for (long i = 0; i < std::lround(20.02 / row_s); ++i) {
+      const double t = row_s * static_cast<double>(i);
+      const auto stance = [](double at) { return at >= 0.0 && std::fmod(at, 0.4) >= 0.2 - 1e-9; };
+      core::LogRow row;
+      row.operating = true;
+      row.time_s = t;
+      const bool scuff = std::fmod(t, 0.4) > 0.1 - 1e-9 && std::fmod(t, 0.4) < 0.108 - 1e-9;
+      row.true_contact.fill(stance(t) || scuff);
+      row.contact.fill(stance(t - 0.012) || (scuff && row_s > 0.0));
+      e.AddRow(row);
+    }
+    return e.metrics().of(ContactWord::kCounted);
+  };
+  for (const double row_s : {0.001, 0.002, 0.004}) {
+    const ContactQuality q = run(row_s);
+    EXPECT_EQ(q.Accuracy(), 1.0) << row_s;  // 12 ms late is within 15 ms of the edge
+    EXPECT_EQ(q.touchdown.true_edges(), 4u * 50u) << row_s;  // 8 ms are a scuff
+    EXPECT_NEAR(q.touchdown.delays.Quantile(0.5), 0.012, 1e-9) << row_s;
+    EXPECT_EQ(q.touchdown.false_alarms, 0u) << row_s;
+  }
+}
+
 TEST(Contact, MissedAndFalseTouchdownsAreCounted) {
   const ContactMetrics m = RunTrot(20050, [](long i, core::LogRow& row) {
     const long stride = i / 200, at = i % 200;

@@ -53,6 +53,20 @@ TEST(Metrics, ConstantWalkGivesItsOwnNumbers) {
   EXPECT_NEAR(r.mpc.median_s, 1e-4, 1e-12);
 }
 
+// 5 kg are put on half-way: each metre is charged with the mass that was carried over it.
+TEST(Metrics, CostOfTransportFollowsTheMassOverTheWay) {
+  MetricsAccumulator m(9.81);
+  Walk walk(0.5);
+  walk.Run(m, 20.0);
+  walk.row_.total_mass_kg = 15.0;
+  walk.Run(m, 20.0);
+  const EpisodeMetrics r = m.Finish();
+  EXPECT_NEAR(r.cot_mech_abs, 49.05 / (12.5 * 9.81 * 0.5), 0.01);
+  ASSERT_FALSE(r.windows.empty());
+  EXPECT_NEAR(r.windows.front().cot_mech_abs, 49.05 / (10.0 * 9.81 * 0.5), 1e-3);
+  EXPECT_NEAR(r.windows.back().cot_mech_abs, 49.05 / (15.0 * 9.81 * 0.5), 1e-3);
+}
+
 TEST(Metrics, PlacementsAndFallsAreNotWalking) {
   MetricsAccumulator m(9.81);
   Walk walk(0.5);
@@ -92,7 +106,7 @@ TEST(Metrics, SurviveTheJsonRoundTrip) {
   MetricsAccumulator m(9.81);
   Walk walk(0.4);
   walk.Run(m, 12.0);
-  m.AddFall(3.5, "tilt at x 1 m");
+  m.AddFall({3.5, "tilt", Vec2(1.0, -2.0)});
   const EpisodeMetrics r = m.Finish();
   const nlohmann::json j = r;
   EXPECT_EQ(nlohmann::json(j.get<EpisodeMetrics>()), j);

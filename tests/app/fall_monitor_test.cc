@@ -43,6 +43,18 @@ TEST(FallMonitor, TiltCountsAtOnceAndLowAfterAWhile) {
   EXPECT_EQ(RunFor(monitor, low, 0.05), FallCause::kLow);
 }
 
+TEST(FallMonitor, BeforeTheControllerIsInChargeTiltAndNotStandingCount) {
+  FallMonitor monitor({}, 0.3, 0.001);
+  sim::Truth folded = Upright();
+  folded.state.p_WB.z() = 0.07;
+  folded.trunk_force_N = 100.0;
+  EXPECT_EQ(monitor.UpdateStandUp(folded, -1.0), FallCause::kNone);
+  EXPECT_EQ(monitor.UpdateStandUp(folded, 2.9), FallCause::kNone);
+  EXPECT_EQ(monitor.UpdateStandUp(folded, 3.1), FallCause::kNotStanding);
+  folded.state.R_WB = core::RotationFromRpy({1.1, 0.0, 0.0});
+  EXPECT_EQ(monitor.UpdateStandUp(folded, -1.0), FallCause::kTilt);
+}
+
 TEST(FallMonitor, StuckNeedsACommandAndTenSeconds) {
   FallMonitor monitor({}, 0.3, 0.001);
   const Vec3 here = Vec3::Zero();

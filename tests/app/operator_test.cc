@@ -23,7 +23,7 @@ TEST(Route, LeadsAroundAWallThroughItsGap) {
     }
   }
   const terrains::Heightfield ground(kNodes, 0.1, std::move(heights), {});
-  const Route route = PlanRoute({}, ground);
+  const Route route = PlanRoute({}, test::Go2(), ground);
   ASSERT_GT(route.size(), 100u);
   for (const Vec2& p : route) EXPECT_LT(ground.HeightAt(p.x(), p.y()), 0.1) << p.transpose();
   for (std::size_t i = 0; i < route.size(); ++i) {
@@ -36,10 +36,10 @@ TEST(Operator, LeadsAnIdealRobotAroundTheLoop) {
   const terrains::Heightfield ground = test::FlatGround(0.8, 30.0);
   RouteParams params;
   params.speed_mps = 0.5;
-  Operator person(params, ground);
+  Operator person(params, test::Go2(), ground);
   RobotState s;
-  s.p_WB.head<2>() = person.start_W();
-  double yaw = person.start_yaw_rad();
+  s.p_WB.head<2>() = person.start().p_WB;
+  double yaw = person.start().yaw_rad;
   const double dt = 0.01;
   double walked = 0.0, worst = 0.0;
   for (int i = 0; i < 12000; ++i) {
@@ -57,7 +57,7 @@ TEST(Operator, LeadsAnIdealRobotAroundTheLoop) {
 TEST(Operator, FollowsTheVelocityProgramme) {
   VelocityProgramme programme;
   programme.steps = {{0.0, 0.1, 0.0, 0.0}, {2.0, 0.0, 0.2, -0.3}};
-  Operator person(programme, test::FlatGround());
+  Operator person(programme, test::Go2(), test::FlatGround());
   EXPECT_EQ(person.Update({}, 1.0, 0.01).v_x_mps, 0.1);
   EXPECT_EQ(person.Update({}, 2.5, 0.01).w_z_radps, -0.3);
 }

@@ -4,9 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "app/episode_files.h"
-#include "app/placement.h"
-#include "core/math/so3.h"
-#include "core/robot/whole_body.h"
 #include "tests/support/robots.h"
 
 namespace scoria::app {
@@ -43,6 +40,19 @@ TEST(Replay, FollowsFallsAndChangesOfTheController) {
   EXPECT_TRUE(same.identical) << same.first_difference_s;
 }
 
+TEST(Replay, PlaysTheSolverFaultsOfTheLog) {
+  const test::TemporaryFolder folder;
+  RunOptions options;
+  options.folder = folder.path();
+  (void)RunToFolder(
+      test::LoadScenario("rough", {"duration_s=6", "solver_faults.share=0.05",
+                                   "solver_faults.outages=[{at_s: 3, duration_s: 0.5, solver: mpc}]"}),
+      options);
+  const ReplayResult same = ReplayLog(folder.path() / "log.mcap", {});
+  EXPECT_EQ(same.steps, 6000);
+  EXPECT_TRUE(same.identical) << same.first_difference_s;
+}
+
 std::string ReplayError(const std::filesystem::path& log, const std::vector<std::string>& set) {
   try {
     (void)ReplayLog(log, set);
@@ -66,19 +76,6 @@ TEST(Replay, SaysWhatItCannotDo) {
           "with --set controller.estimator.type=inekf and controller.contact.source=hierarchy");
   EXPECT_NE(ReplayError(log, {"gravity_mps2=3.7"}).find("a replay can only change controller.*"),
             std::string::npos);
-}
-
-TEST(Placement, StandsOnAllFourFeetWithTheTrunkAlongTheGround) {
-  const core::RobotDescription& robot = test::Go2();
-  const terrains::Heightfield ground = test::TiltedGround(0.2, 0.8);
-  const RobotState state = PlaceStanding(robot, ground, Vec2(0.3, -0.2), 0.0);
-  EXPECT_NEAR(core::RpyFromRotation(state.R_WB).y(), -0.2, 0.01);
-  for (const Leg leg : kLegs) {
-    const Vec3 p_WF =
-        state.p_WB + state.R_WB * core::CalcLegKinematics(robot.legs[leg], state.q[leg]).p_BF;
-    const double clearance_m = (p_WF.z() - ground.HeightAt(p_WF.x(), p_WF.y())) * std::cos(0.2);
-    EXPECT_NEAR(clearance_m, robot.legs[leg].foot_radius_m, 1e-3);
-  }
 }
 
 }  // namespace

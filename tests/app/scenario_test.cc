@@ -54,6 +54,13 @@ TEST(Scenario, ErrorsNameTheOverrideAndTheRule) {
             "--set controler.gait=3: controler: unknown key (did you mean \"controller\"?)");
 }
 
+TEST(Scenario, VelocityStepsThatRunBackwardsAreRefused) {
+  EXPECT_NE(ErrorOf({"operator.steps=[{at_s: 5, v_x_mps: 0.3}, {at_s: 2, v_x_mps: 0}]"})
+                .find("operator.steps[1].at_s: 2 is before 5, that of the step above"),
+            std::string::npos);
+  EXPECT_EQ(ErrorOf({"operator.steps=[{at_s: 2}, {at_s: 2, v_x_mps: 0.3}]"}), "no error");
+}
+
 TEST(Scenario, OverridesReachTheItemsOfLists) {
   const Scenario scenario = test::LoadScenario("push", {"pushes.0.impulse_Ns=30"});
   EXPECT_EQ(scenario.pushes.at(0).impulse_Ns, 30.0);

@@ -54,5 +54,30 @@ INSTANTIATE_TEST_SUITE_P(Watches, SupervisorScenario,
                                            "load"),
                          [](const auto& test) { return std::string(test.param); });
 
+// The gait changes while the contact stage is on its fallback: the fallback stays engaged.
+TEST(SupervisorScenario, ChangeOfTheControllerKeepsTheContactFallback) {
+  const Scenario scenario = test::LoadScenario(
+      "supervisor/contact",
+      {"controller_changes=[{at_s: 8, set: [gait.type=sgs]}, {at_s: 9, set: "
+       "[contact.touchdown_delay_s=0.003]}]",
+       "duration_s=12"});
+  const core::RobotDescription robot = core::LoadRobot(scenario.robot);
+  const terrains::Heightfield ground =
+      terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);
+  long on_fallback = 0, by_failed_sensor = 0;
+  EpisodeSinks sinks;
+  sinks.on_row = [&](const core::LogRow& row, const core::SolveTimes&) {
+    if (!row.fallen_back[static_cast<std::size_t>(controller::Watch::kContact)]) return;
+    ++on_fallback;
+    for (std::size_t leg = 0; leg < 4; ++leg) {
+      const bool sensor = row.contact_source[leg] == static_cast<int>(ContactSource::kSensor);
+      by_failed_sensor += sensor && !row.sensor_healthy[leg];
+    }
+  };
+  (void)RunEpisode(scenario, robot, ground, sinks);
+  EXPECT_GT(on_fallback, 1000);
+  EXPECT_EQ(by_failed_sensor, 0);
+}
+
 }  // namespace
 }  // namespace scoria::app

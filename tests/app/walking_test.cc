@@ -360,6 +360,52 @@ TEST(Energy, LedgerClosesToAPercentOfMotorWork) {
   }
 }
 
+/// Works since the start of a placement, by the meter and by the ledger.
+struct PlacementWork {
+  double meter_J = 0.0, ledger_J = 0.0;
+};
+
+std::vector<PlacementWork> WorksByPlacement(const Scenario& scenario) {
+  std::vector<PlacementWork> works;
+  core::LogRow first;
+  (void)Walk(scenario, [&](const core::LogRow& row) {
+    if (works.empty() || row.segment != first.segment) {
+      works.emplace_back();
+      first = row;
+    }
+    const auto net_J = [](const core::LogRow& r) { return 2.0 * r.mech_pos_J - r.mech_abs_J; };
+    works.back() = {net_J(row) - net_J(first), row.work_motor_J - first.work_motor_J};
+  });
+  return works;
+}
+
+// The ledger knows nothing of sensors and commands: impulses times the mean of the true speeds.
+TEST(Energy, MeterCountsTheWorkOfTheTrueJoints) {
+  for (const char* name : {"flat", "vulcano"}) {
+    Scenario scenario = test::LoadScenario(name, {"duration_s=15"});
+    scenario.pushes = {{5.0, 0.1, 120.0, 1.5708}};  // falls: a second placement
+    const std::vector<PlacementWork> works = WorksByPlacement(scenario);
+    EXPECT_GE(works.size(), 2u) << name;
+    for (const PlacementWork& work : works) {
+      EXPECT_GT(work.ledger_J, 10.0) << name;
+      EXPECT_NEAR(work.meter_J, work.ledger_J, 0.01 * work.ledger_J) << name;
+    }
+  }
+}
+
+TEST(Energy, CostOfTransportDoesNotDependOnTheEncoders) {
+  const auto cost = [](const char* sensors) {
+    return Walk(test::LoadScenario("flat", {std::string("sensors.type=") + sensors, "duration_s=20",
+                                            "controller.estimator.type=truth",
+                                            "controller.contact.source=truth"}))
+        .metrics;
+  };
+  const analysis::EpisodeMetrics real = cost("honest"), ideal = cost("ideal");
+  EXPECT_NEAR(real.cot_mech_abs, ideal.cot_mech_abs, 0.02 * ideal.cot_mech_abs);
+  EXPECT_NEAR(real.cot_mech_pos, ideal.cot_mech_pos, 0.02 * ideal.cot_mech_pos);
+  EXPECT_NEAR(real.cot_electrical, ideal.cot_electrical, 0.02 * ideal.cot_electrical);
+}
+
 TEST(Standing, DoesNotDrift) {
   const Outcome o = Walk(test::LoadScenario("flat", {"operator.steps=[]", "duration_s=20"}));
   EXPECT_EQ(o.result.falls, 0);

@@ -50,11 +50,30 @@ TEST(Controller, StepNeverAllocates) {
         out = &controller.Step(z, command);
         allocations += guard.count();
       }
-      world.Step(actuation.Update(out->command, z.q, z.qd, 0.001));
+      world.Step(
+          actuation.Update(out->command, {z.q, z.qd}, world.truth().state.qd, 0.001));
     }
     EXPECT_EQ(allocations, 0);
     EXPECT_GT(world.truth().state.p_WB.x(), 0.3) << "it walked";
   }
+}
+
+// Standing up obeys the guard, too: a robot on its side is damped, not driven.
+TEST(Controller, StandUpCommandsPassTheOutputGuard) {
+  ControllerParams params;
+  params.estimator = TruthEstimatorParams{};
+  Start start;
+  start.pose = Start::Pose::kLying;
+  Controller controller(params, test::Go2(), 9.81, 0.001, start);
+  SensorFrame z;
+  z.a_WS_S = Vec3(0.0, 9.81, 0.0);
+  SensorFrame::Truth truth;
+  truth.state = test::StandingState();
+  truth.state.R_WB = Eigen::AngleAxisd(1.5, Vec3::UnitX()).toRotationMatrix();
+  z.q = truth.state.q;
+  z.truth = truth;
+  EXPECT_EQ(controller.Step(z, {}).command.kp_Nm_per_rad, ZeroPerLeg());
+  EXPECT_EQ(controller.counters()[Count::kTiltStop], 1u);
 }
 
 // Two worlds that differ in truth alone give the same commands, whichever estimator runs; and a

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <limits>
 
+#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include "controller/estimation/rest_attitude.h"
@@ -139,6 +140,31 @@ TEST_P(Estimator, WithoutNewSamplesOrFeetItStaysFinite) {
   for (int i = 0; i < 500; ++i) estimate = Step(false);
   EXPECT_TRUE(estimate.state.p_WB.allFinite());
   EXPECT_LT((estimate.state.p_WB - state_.p_WB).norm(), 0.05) << "half a second by the IMU alone";
+}
+
+// An estimator that follows another one knows the gyro's bias that was learned, and is no surer of
+// tilt and velocity than that one was.
+TEST_P(Estimator, HandsItsGyroBiasAndCovarianceToTheNext) {
+  const Vec3 bias_S(0.02, -0.01, 0.015);
+  z_.w_WS_S = bias_S;
+  for (int i = 0; i < 600; ++i) (void)Step(true);
+  StateEstimate last;
+  for (int i = 0; i < 2000; ++i) last = Step(false);
+  for (const EstimatorParams& next_params :
+       {EstimatorParams(InekfEstimatorParams{}), EstimatorParams(LinearKfParams{})}) {
+    const auto next = MakeStateEstimator(next_params, test::Go2(), 9.81, {});
+    next->Continue(last, 1.0);
+    const StateEstimate first =
+        next->Update({z_, 0.001, false, contact_, wb_, Vec3::UnitZ(), false}, counters_);
+    EXPECT_LT(first.state.w_WB.norm(), 1e-3);
+    if (first.P_tilt_v.isZero()) continue;
+    const StateEstimate::Mat5 surplus = first.P_tilt_v - 0.99 * last.P_tilt_v;
+    EXPECT_GT(Eigen::SelfAdjointEigenSolver<StateEstimate::Mat5>(surplus).eigenvalues().minCoeff(),
+              0.0);
+    constexpr double kTiltOfABaseline_rad = 0.02;  // of an estimator that states no covariance
+    if (last.P_tilt_v.isZero())
+      EXPECT_GT(std::sqrt(first.P_tilt_v(0, 0)), kTiltOfABaseline_rad);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, Estimator,

@@ -19,9 +19,9 @@ TEST(OutputGuard, LeavesAnOrdinaryCommandAloneAndClampsTorques) {
   OutputGuard guard({}, test::Go2(), test::StandingState().q);
   Counters counters;
   const RobotState state = test::StandingState();
-  EXPECT_EQ(guard.Check(Torques(5.0), state, counters), Torques(5.0));
+  EXPECT_EQ(guard.Check(Torques(5.0), state, GuardMode::kWalk, counters), Torques(5.0));
   EXPECT_EQ(counters, Counters{});
-  const JointCommand clamped = guard.Check(Torques(1e3), state, counters);
+  const JointCommand clamped = guard.Check(Torques(1e3), state, GuardMode::kWalk, counters);
   for (const Leg leg : kLegs) EXPECT_EQ(clamped.tau_Nm[leg], test::Go2().EffortLimits()[leg]);
 }
 
@@ -33,7 +33,7 @@ TEST(OutputGuard, NothingThatIsNotFiniteReachesAMotor) {
     LegArray<Vec3>* const fields[] = {&command.q, &command.qd, &command.tau_Nm,
                                       &command.kp_Nm_per_rad, &command.kd_Nms_per_rad};
     (*fields[field])[Leg::kHR].y() = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_EQ(guard.Check(command, test::StandingState(), counters), guard.Damping());
+    EXPECT_EQ(guard.Check(command, test::StandingState(), GuardMode::kWalk, counters), guard.Damping());
   }
   EXPECT_EQ(counters[Count::kDamping], 5u);
 }
@@ -43,11 +43,11 @@ TEST(OutputGuard, StopsForGoodWhenTheTrunkTips) {
   Counters counters;
   RobotState state = test::StandingState();
   state.R_WB = Eigen::AngleAxisd(1.19, Vec3::UnitX()).toRotationMatrix();
-  EXPECT_EQ(guard.Check(Torques(1.0), state, counters), Torques(1.0));
+  EXPECT_EQ(guard.Check(Torques(1.0), state, GuardMode::kWalk, counters), Torques(1.0));
   state.R_WB = Eigen::AngleAxisd(1.21, Vec3::UnitX()).toRotationMatrix();
-  EXPECT_EQ(guard.Check(Torques(1.0), state, counters), guard.Damping());
+  EXPECT_EQ(guard.Check(Torques(1.0), state, GuardMode::kWalk, counters), guard.Damping());
   state.R_WB.setIdentity();
-  EXPECT_EQ(guard.Check(Torques(1.0), state, counters), guard.Damping());
+  EXPECT_EQ(guard.Check(Torques(1.0), state, GuardMode::kWalk, counters), guard.Damping());
   EXPECT_EQ(counters[Count::kTiltStop], 1u);
 }
 
@@ -57,8 +57,8 @@ TEST(OutputGuard, TurnsAJointBackAtItsLimitButLetsItComeIn) {
   RobotState state = test::StandingState();
   const double upper = test::Go2().legs[Leg::kFL].joints[1].upper_rad;
   state.q[Leg::kFL].y() = upper + 0.01;
-  EXPECT_EQ(guard.Check(Torques(-5.0), state, counters).tau_Nm[Leg::kFL].y(), -5.0);
-  const JointCommand safe = guard.Check(Torques(5.0), state, counters);
+  EXPECT_EQ(guard.Check(Torques(-5.0), state, GuardMode::kWalk, counters).tau_Nm[Leg::kFL].y(), -5.0);
+  const JointCommand safe = guard.Check(Torques(5.0), state, GuardMode::kWalk, counters);
   EXPECT_LT(safe.kp_Nm_per_rad[Leg::kFL].y() * (safe.q[Leg::kFL].y() - state.q[Leg::kFL].y()), 0.0);
   EXPECT_EQ(safe.tau_Nm[Leg::kFL].y(), 0.0);
   EXPECT_EQ(safe.tau_Nm[Leg::kFL].x(), 5.0) << "other joints keep their command";
@@ -74,10 +74,10 @@ TEST(OutputGuard, KeepsAKneeFromFoldingThroughStraight) {
   RobotState state = test::StandingState();
   state.q = standing;
   state.q[Leg::kFL].z() = -0.2;  // far within the URDF's limits
-  const JointCommand safe = guard.Check(Torques(5.0), state, counters);
+  const JointCommand safe = guard.Check(Torques(5.0), state, GuardMode::kWalk, counters);
   EXPECT_LT(safe.kp_Nm_per_rad[Leg::kFL].z() * (safe.q[Leg::kFL].z() - state.q[Leg::kFL].z()), 0.0);
   EXPECT_EQ(counters[Count::kJointLimit], 1u);
-  EXPECT_EQ(guard.Check(Torques(-5.0), state, counters).tau_Nm[Leg::kFL].z(), -5.0);
+  EXPECT_EQ(guard.Check(Torques(-5.0), state, GuardMode::kWalk, counters).tau_Nm[Leg::kFL].z(), -5.0);
 }
 
 TEST(StandInPlan, SharesTheWeightAmongTheFeetThatStand) {

@@ -10,15 +10,18 @@
 namespace scoria::sim {
 namespace {
 
+const LegArray<Vec3> kRest = ZeroPerLeg();
+const Actuation::Encoders kStill{kRest, kRest};
+
 TEST(Actuation, TorqueIsLimitedByEffortAndSpeed) {
   Actuation actuation(test::Go2());
   JointCommand command;
   command.tau_Nm[Leg::kFL] = {100.0, 100.0, -100.0};
   LegArray<Vec3> qd = ZeroPerLeg();
-  (void)actuation.Update(command, ZeroPerLeg(), qd, 1e-3);
+  (void)actuation.Update(command, kStill, qd, 1e-3);
   EXPECT_EQ(actuation.motor_tau_Nm()[Leg::kFL], Vec3(23.7, 23.7, -45.43));
   qd[Leg::kFL] = {30.1, -30.1, 0.0};  // no-load speed: no torque forwards, full torque for braking
-  (void)actuation.Update(command, ZeroPerLeg(), qd, 1e-3);
+  (void)actuation.Update(command, kStill, qd, 1e-3);
   EXPECT_NEAR(actuation.motor_tau_Nm()[Leg::kFL].x(), 0.0, 1e-9);
   EXPECT_EQ(actuation.motor_tau_Nm()[Leg::kFL].y(), 23.7);
 }
@@ -30,7 +33,7 @@ TEST(Actuation, JointControlPullsTowardsTheTarget) {
   command.qd[Leg::kHR] = {0.0, 0.5, 0.0};
   command.kp_Nm_per_rad[Leg::kHR] = Vec3::Constant(50.0);
   command.kd_Nms_per_rad[Leg::kHR] = Vec3::Constant(2.0);
-  const LegArray<Vec3> tau = actuation.Update(command, ZeroPerLeg(), ZeroPerLeg(), 1e-3);
+  const LegArray<Vec3> tau = actuation.Update(command, kStill, kRest, 1e-3);
   EXPECT_NEAR(tau[Leg::kHR].x(), 5.0, 1e-12);
   EXPECT_NEAR(tau[Leg::kHR].y(), 1.0, 1e-12);
 }
@@ -43,13 +46,33 @@ TEST(Actuation, EnergyCountsWorkAndHeat) {
   LegArray<Vec3> qd = ZeroPerLeg();
   qd[Leg::kFL].x() = qd[Leg::kFR].x() = 4.0;
   const double dt = 1e-3;
-  (void)actuation.Update(command, ZeroPerLeg(), qd, dt);
+  (void)actuation.Update(command, kStill, qd, dt);
+  actuation.Meter(qd, qd, dt);
   const core::MotorParams& m = test::Go2().config.motors;
   EXPECT_NEAR(actuation.energy().mech_abs_J, (8.0 + 12.0) * dt, 1e-12);
   EXPECT_NEAR(actuation.energy().mech_pos_J, 8.0 * dt, 1e-12);
   const double k = m.copper_loss_W_per_Nm2.x();  // the braking joint gives nothing back
   EXPECT_NEAR(actuation.energy().electrical_W,
               m.idle_W + 8.0 + 4.0 * k + std::max(0.0, -12.0 + 9.0 * k), 1e-9);
+}
+
+// The drive damps what its encoders measure; what it can push and what that costs is the joint's.
+TEST(Actuation, DriveActsOnItsEncodersAndPhysicsOnTheJoint) {
+  Actuation actuation(test::Go2());
+  JointCommand command;
+  command.tau_Nm[Leg::kFL].x() = 20.0;
+  command.kd_Nms_per_rad[Leg::kFL].x() = 1.0;
+  LegArray<Vec3> measured = ZeroPerLeg(), before = ZeroPerLeg(), after = ZeroPerLeg();
+  measured[Leg::kFL].x() = 2.0;
+  before[Leg::kFL].x() = 3.0;
+  after[Leg::kFL].x() = 5.0;
+  (void)actuation.Update(command, {measured, measured}, before, 1e-3);
+  EXPECT_EQ(actuation.motor_tau_Nm()[Leg::kFL].x(), 18.0);
+  actuation.Meter(before, after, 1e-3);
+  EXPECT_NEAR(actuation.energy().mech_pos_J, 18.0 * 4.0 * 1e-3, 1e-12);
+  before[Leg::kFL].x() = 30.1;  // the no-load speed, whatever the encoder says
+  (void)actuation.Update(command, {measured, measured}, before, 1e-3);
+  EXPECT_NEAR(actuation.motor_tau_Nm()[Leg::kFL].x(), 0.0, 1e-9);
 }
 
 TEST(Actuation, CommandsArriveAfterTheirDelay) {
@@ -59,7 +82,7 @@ TEST(Actuation, CommandsArriveAfterTheirDelay) {
   const auto torque_of = [&](double tau_Nm) {
     JointCommand command;
     command.tau_Nm[Leg::kFL].x() = tau_Nm;
-    return actuation.Update(command, ZeroPerLeg(), ZeroPerLeg(), 1e-3)[Leg::kFL].x();
+    return actuation.Update(command, kStill, kRest, 1e-3)[Leg::kFL].x();
   };
   std::vector<double> got;
   for (const double tau : {1.0, 2.0, 3.0, 4.0, 5.0, 6.0}) got.push_back(torque_of(tau));
