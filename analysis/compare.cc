@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
+
+#include "analysis/fall_groups.h"
 
 namespace scoria::analysis {
 namespace {
@@ -35,6 +38,7 @@ std::string Verdict(const Comparison& c, const std::string& where) {
   const std::string counts = fmt::format("{} fell {} times in {:.0f} m, {} {} times in {:.0f} m",
                                          c.a, c.cell_a.falls.events, c.cell_a.falls.exposure, c.b,
                                          c.cell_b.falls.events, c.cell_b.falls.exposure);
+  const std::string places = c.places.empty() ? "" : fmt::format("; {}", c.places);
   const auto number = [](double x) {
     return std::isinf(x) ? std::string("∞") : fmt::format("{:.2f}", x);
   };
@@ -42,13 +46,15 @@ std::string Verdict(const Comparison& c, const std::string& where) {
       fmt::format("rate ratio {} (95 %: {} to {}{})", number(c.ratio.ratio), number(interval.low),
                   number(interval.high), spread ? ", by terrain, which differ" : "");
   if (interval.high < 1.0)
-    return fmt::format("{}: {} falls less than {}: {}, {}.", where, c.a, c.b, counts, range);
+    return fmt::format("{}: {} falls less than {}: {}, {}{}.", where, c.a, c.b, counts, range,
+                       places);
   if (interval.low > 1.0)
-    return fmt::format("{}: {} falls more than {}: {}, {}.", where, c.a, c.b, counts, range);
+    return fmt::format("{}: {} falls more than {}: {}, {}{}.", where, c.a, c.b, counts, range,
+                       places);
   return fmt::format(
       "{}: no difference shown between {} and {}: {}, {}; this budget would have seen a ratio of "
-      "{}.",
-      where, c.a, c.b, counts, range, number(c.detectable));
+      "{}{}.",
+      where, c.a, c.b, counts, range, number(c.detectable), places);
 }
 
 }  // namespace
@@ -146,6 +152,18 @@ Cell PoolCell(const CampaignResults& results, const std::string& arm,
   return cell;
 }
 
+/// Grounds that the arms walked at a point.
+std::size_t CountGrounds(const CampaignResults& results, const std::vector<std::string>& arms,
+                         const std::vector<std::string>& point) {
+  std::set<std::string> grounds;
+  for (const EpisodeRecord& e : results.episodes) {
+    const bool wanted = std::any_of(arms.begin(), arms.end(),
+                                    [&](const std::string& arm) { return Belongs(e, arm, point); });
+    if (wanted && e.has_metrics) grounds.insert(e.ground);
+  }
+  return grounds.size();
+}
+
 Comparison Compare(const CampaignResults& results, const std::string& a, const std::string& b,
                    const std::vector<std::string>& point) {
   Comparison c;
@@ -181,6 +199,8 @@ Comparison Compare(const CampaignResults& results, const std::string& a, const s
       lower_rate > 0.0 ? lower_rate : std::max(c.cell_a.falls.rate, c.cell_b.falls.rate);
   c.detectable =
       DetectableRatio(reference, std::min(c.cell_a.falls.exposure, c.cell_b.falls.exposure));
+  c.places =
+      DescribeGroups(GroupFalls(results, {a, b}, point), CountGrounds(results, {a, b}, point));
   c.verdict = Verdict(c, PointName(results.axes, point));
   return c;
 }

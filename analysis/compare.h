@@ -41,10 +41,16 @@ struct Comparison {
   Dispersion dispersion;     // across terrains, of a's share of the falls
   Interval bootstrap;        // of the ratio, by terrain
   double detectable = 0.0;   // smallest ratio that this budget could see
+  std::string places;        // in how many groups the falls of both lie (DescribeGroups)
   std::string verdict;       // one sentence
 };
 [[nodiscard]] Comparison Compare(const CampaignResults& results, const std::string& a,
                                  const std::string& b, const std::vector<std::string>& point);
+
+/// Grounds that arms walked at a point (empty: over the whole sweep).
+[[nodiscard]] std::size_t CountGrounds(const CampaignResults& results,
+                                       const std::vector<std::string>& arms,
+                                       const std::vector<std::string>& point);
 
 /// "speed 0.3, roughness 1" or "all".
 [[nodiscard]] std::string PointName(const std::vector<Axis>& axes,

@@ -3,6 +3,8 @@
 
 #include <cctype>
 
+#include <boost/archive/iterators/base64_from_binary.hpp>
+#include <boost/archive/iterators/transform_width.hpp>
 #include <fmt/format.h>
 
 namespace scoria::analysis {
@@ -15,6 +17,10 @@ table { border-collapse: collapse; font-size: 12px; display: block; overflow-x: 
 th, td { padding: 0.25em 0.6em; border-bottom: 1px solid #e5e5e5; text-align: left; }
 td { white-space: nowrap; } th { background: #f4f4f4; vertical-align: bottom; }
 figure { margin: 1.5em 0; } figure svg { max-width: 100%; height: auto; } video { max-width: 100%; }
+.columns { display: grid; grid-template-columns: 1.25fr 1fr; gap: 1.6em; align-items: start; }
+.columns h2 { margin-top: 0.4em; } .columns figure { margin: 0.4em 0; } .columns img { width: 100%; }
+.columns li, .columns p { font-size: 14px; line-height: 1.4; margin: 0.35em 0; }
+@media (max-width: 800px) { .columns { display: block; } }
 figcaption, .note { color: #555; font-size: 13px; } li { margin: 0.3em 0; }
 )";
 
@@ -31,6 +37,14 @@ std::string WithUniqueIds(const std::string& svg, int number) {
       out += prefix;
   }
   return out;
+}
+
+std::string Base64(const std::string& bytes) {
+  using namespace boost::archive::iterators;
+  using Encoder = base64_from_binary<transform_width<std::string::const_iterator, 6, 8>>;
+  std::string text(Encoder(bytes.begin()), Encoder(bytes.end()));
+  text.append((3 - bytes.size() % 3) % 3, '=');
+  return text;
 }
 
 }  // namespace
@@ -100,6 +114,17 @@ void HtmlPage::InlineSvg(const std::string& svg, const std::string& title,
       WithUniqueIds(start == std::string::npos ? svg : svg.substr(start), svgs_++),
       EscapeHtml(caption));
 }
+
+void HtmlPage::Image(const std::string& jpeg, const std::string& caption) {
+  body_ += fmt::format(
+      "<figure><img alt=\"{0}\" src=\"data:image/jpeg;base64,{1}\"><figcaption>{0}</figcaption>"
+      "</figure>\n",
+      EscapeHtml(caption), Base64(jpeg));
+}
+
+void HtmlPage::OpenColumns() { body_ += "<div class=\"columns\"><div>\n"; }
+void HtmlPage::NextColumn() { body_ += "</div><div>\n"; }
+void HtmlPage::CloseColumns() { body_ += "</div></div>\n"; }
 
 void HtmlPage::Video(const std::string& path, const std::string& caption) {
   body_ += fmt::format(

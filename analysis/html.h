@@ -17,6 +17,12 @@ class HtmlPage {
   void Table(const std::vector<std::string>& header,
              const std::vector<std::vector<std::string>>& rows);
   void InlineSvg(const std::string& svg, const std::string& title, const std::string& caption);
+  /// A JPEG, embedded.
+  void Image(const std::string& jpeg, const std::string& caption);
+  /// What is added between these stands in two columns.
+  void OpenColumns();
+  void NextColumn();
+  void CloseColumns();
   void Video(const std::string& path, const std::string& caption);
   [[nodiscard]] std::string Finish() const;
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -11,6 +12,8 @@
 #include "analysis/bias_budget.h"
 #include "analysis/compare.h"
 #include "analysis/estimation_report.h"
+#include "analysis/fall_groups.h"
+#include "analysis/fall_map.h"
 #include "analysis/figures.h"
 #include "analysis/html.h"
 #include "analysis/model_report.h"
@@ -86,27 +89,69 @@ void AddFailures(const CampaignResults& results, HtmlPage& page) {
   AddCounts("contacts, solver failures and fallbacks", counters, results.arms, page);
 }
 
-void AddVerdicts(const CampaignResults& results, HtmlPage& page) {
-  if (results.arms.size() < 2) return;
-  const std::vector<Comparison> all = AllComparisons(results);
-  page.Heading("Who falls less");
-  std::vector<std::string> pooled, rest;
-  for (const Comparison& c : all) (c.point.empty() ? pooled : rest).push_back(c.verdict);
-  page.Paragraph(
-      "Over the whole sweep, pooled; read it with the single points below, since the sweep's range "
-      "was chosen by hand:");
-  page.List(pooled);
-  if (!rest.empty()) {
-    page.Paragraph("At each point:");
-    page.List(rest);
+/// Metres, falls and metres per fall of every arm, over the whole sweep.
+void AddArms(const CampaignResults& results, HtmlPage& page) {
+  std::vector<std::vector<std::string>> rows;
+  for (const std::string& arm : results.arms) {
+    const RateEstimate falls = PoolCell(results, arm, {}).falls;
+    rows.push_back({arm, fmt::format("{:.0f}", falls.exposure), std::to_string(falls.events),
+                    MetresPerFall(falls)});
+  }
+  page.Table({"arm", "metres walked", "falls", "metres per fall"}, rows);
+}
+
+/// The first screen: who falls less, on how many metres, what this budget could have seen, in how
+/// many places the falls lie; and a picture.
+void AddHeadline(const CampaignResults& results, const std::vector<Comparison>& comparisons,
+                 const std::optional<ReportPicture>& picture, HtmlPage& page) {
+  page.OpenColumns();
+  page.Paragraph(Summary(results));
+  std::vector<std::string> pooled;
+  double detectable = std::numeric_limits<double>::infinity();
+  for (const Comparison& c : comparisons) {
+    if (!c.point.empty()) continue;
+    pooled.push_back(c.verdict);
+    detectable = std::min(detectable, c.detectable);
+  }
+  if (!pooled.empty()) {
+    page.Heading("Who falls less");
+    page.List(pooled);
+  }
+  AddArms(results, page);
+  std::vector<std::string> facts;
+  if (std::isfinite(detectable))
+    facts.push_back(fmt::format(
+        "Smallest effect that this budget sees: a rate ratio of {:.2f} (power 80 %, level 5 %).",
+        detectable));
+  const std::vector<FallGroup> groups = GroupFalls(results);
+  if (!groups.empty()) {
+    std::string places = DescribeGroups(groups, CountGrounds(results, results.arms, {}));
+    places.front() = 'T';
+    facts.push_back(places + ".");
+  }
+  if (!facts.empty()) page.List(facts);
+  page.NextColumn();
+  if (picture) page.Image(picture->jpeg, picture->caption);
+  page.CloseColumns();
+}
+
+void AddVerdicts(const std::vector<Comparison>& comparisons, HtmlPage& page) {
+  if (comparisons.empty()) return;
+  std::vector<std::string> points;
+  for (const Comparison& c : comparisons) {
+    if (!c.point.empty()) points.push_back(c.verdict);
+  }
+  if (!points.empty()) {
+    page.Heading("Who falls less, at each point");
+    page.List(points);
   }
   page.Note(
       "Ratios of falls per metre with exact intervals (conditional binomial). Where an arm's share "
-      "of the falls differs between "
-      "six or more terrains by more than chance (p < 0.05), the interval is widened to the one "
-      "from resampling terrains. Intervals "
-      "are not corrected for looking at many points: about one in twenty misses the truth by "
-      "chance.");
+      "of the falls differs between six or more terrains by more than chance (p < 0.05), the "
+      "interval is widened to the one from resampling terrains. Intervals are not corrected for "
+      "looking at many points: about one in twenty misses the truth by chance. Verdicts pool a "
+      "sweep whose range was chosen by hand; read them with the single points. Falls within 1 m "
+      "of each other on one ground are one place.");
 }
 
 std::string Value(double x, const char* format) {
@@ -292,17 +337,20 @@ void AddVideos(const fs::path& folder, HtmlPage& page) {
 
 }  // namespace
 
-fs::path WriteReport(const fs::path& folder) {
+fs::path WriteReport(const fs::path& folder, const std::optional<ReportPicture>& picture) {
   const CampaignResults results = LoadResults(folder);
   const fs::path out = folder / "report", figures = out / "figures";
   fs::create_directories(figures);
   const std::vector<Cell> cells = AllCells(results);
 
   HtmlPage page(results.name);
-  page.Paragraph(Summary(results));
-  AddVerdicts(results, page);
+  std::vector<Comparison> comparisons;
+  if (results.arms.size() > 1) comparisons = AllComparisons(results);
+  AddHeadline(results, comparisons, picture, page);
+  AddVerdicts(comparisons, page);
   AddFailures(results, page);
-  const auto falls = FallFigures(results);
+  auto falls = FallFigures(results);
+  for (CaptionedFigure& map : FallMaps(results)) falls.push_back(std::move(map));
   if (!falls.empty()) page.Heading("Falls");
   AddFigures(falls, figures, page);
   page.Heading("Cost of transport");

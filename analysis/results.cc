@@ -46,6 +46,9 @@ void ReadResult(const fs::path& folder, EpisodeRecord& episode) {
     episode.us_per_step = j.value("us_per_step", episode.us_per_step);  // not in older results
     episode.terrain = StatisticsFromJson(j.at("terrain"));
     episode.metrics = j.at("metrics").get<EpisodeMetrics>();
+    episode.ground = j.value("ground", std::to_string(episode.seed));  // not in older results
+    for (const json& p : j.value("route", json::array()))
+      episode.route.emplace_back(p.at(0).get<double>(), p.at(1).get<double>());
     episode.has_metrics = true;
   } catch (const json::exception& e) {
     throw std::runtime_error(fmt::format("{}: {}", file.string(), e.what()));

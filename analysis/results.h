@@ -23,6 +23,8 @@ struct EpisodeRecord {
   std::map<std::string, std::uint64_t> counters;  // what did not go to plan, by name
   terrains::TerrainStatistics terrain;
   EpisodeMetrics metrics;
+  std::string ground;       // equal where episodes walked the same one
+  std::vector<Vec2> route;  // the operator's, m; empty without one
   std::filesystem::path folder;
 };
 

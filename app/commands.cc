@@ -22,6 +22,7 @@
 #include "app/progress.h"
 #include "app/qp_check.h"
 #include "app/replay.h"
+#include "app/report_picture.h"
 #include "app/scenario.h"
 #include "app/verify.h"
 #include "terrains/generator.h"
@@ -164,7 +165,9 @@ void AddReport(CLI::App& app) {
   CLI::App* report =
       app.add_subcommand("report", "write FOLDER/report/report.html of a run or campaign");
   report->add_option("folder", *folder, "what run or campaign wrote")->required();
-  report->callback([folder] { fmt::print("{}\n", analysis::WriteReport(*folder).string()); });
+  report->callback([folder] {
+    fmt::print("{}\n", analysis::WriteReport(*folder, MakeReportPicture(*folder)).string());
+  });
 }
 
 void AddRender(CLI::App& app) {

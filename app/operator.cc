@@ -10,7 +10,8 @@
 namespace scoria::app {
 namespace {
 
-constexpr std::size_t kWindow = 50;  // points of the route ahead among which the robot is looked for
+constexpr std::size_t kWindow =
+    50;  // points of the route ahead among which the robot is looked for
 
 }  // namespace
 
@@ -22,7 +23,9 @@ Operator::Operator(const OperatorParams& params, const core::RobotDescription& r
 }
 
 Place Operator::start() const noexcept {
-  return route_.empty() ? Place{} : Place{route_.front(), HeadingAt(0)};
+  if (const auto* programme = std::get_if<VelocityProgramme>(&params_))
+    return {{programme->start_x_m, programme->start_y_m}, programme->start_yaw_rad};
+  return {route_.front(), HeadingAt(0)};
 }
 
 std::size_t Operator::NearestOnRoute(const Vec2& p_W) const noexcept {
@@ -47,14 +50,14 @@ std::vector<Place> Operator::PlacesAhead(const Place& from, double ahead_m) cons
       places.push_back({p_W + aside_m * Vec2(-std::sin(yaw_rad), std::cos(yaw_rad)), yaw_rad});
   };
   if (route_.empty()) {
-    constexpr double kRing_m = 0.1, kFurthest_m = 2.0;
-    constexpr int kDirections = 12;
-    const Vec2 centre =
-        from.p_WB + ahead_m * Vec2(std::cos(from.yaw_rad), std::sin(from.yaw_rad));
+    constexpr double kRing_m = 0.1, kBeside_m = 0.2, kFurthest_m = 4.0;
+    const Vec2 centre = from.p_WB + ahead_m * Vec2(std::cos(from.yaw_rad), std::sin(from.yaw_rad));
     places.push_back({centre, from.yaw_rad});
     for (double radius_m = kRing_m; radius_m < kFurthest_m; radius_m += kRing_m) {
-      for (int k = 0; k < kDirections; ++k) {
-        const double angle = from.yaw_rad + 2.0 * std::numbers::pi * k / kDirections;
+      const int directions =
+          std::max(8, static_cast<int>(2.0 * std::numbers::pi * radius_m / kBeside_m));
+      for (int k = 0; k < directions; ++k) {
+        const double angle = from.yaw_rad + 2.0 * std::numbers::pi * k / directions;
         places.push_back(
             {centre + radius_m * Vec2(std::cos(angle), std::sin(angle)), from.yaw_rad});
       }

@@ -29,9 +29,14 @@ struct VelocityStep {
 struct VelocityProgramme {
   static constexpr const char* kType = "velocity";
   std::vector<VelocityStep> steps;
+  double start_x_m = 0.0, start_y_m = 0.0, start_yaw_rad = 0.0;
   template <class Archive>
   void Serialize(Archive& a) {
     a.Field("steps", steps, {.doc = "each holds until the next"});
+    a.Field("start_x_m", start_x_m,
+            {.doc = "where the robot is set down, or on the nearest ground on which it stands"});
+    a.Field("start_y_m", start_y_m);
+    a.Field("start_yaw_rad", start_yaw_rad, {.min = -6.2832, .max = 6.2832});
   }
 };
 

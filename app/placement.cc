@@ -17,14 +17,41 @@
 namespace scoria::app {
 namespace {
 
+/// Where the sphere of a foot touches when it is let down onto the ground.
+struct FootContact {
+  double centre_z_m = -std::numeric_limits<double>::infinity();
+  double slope = 0.0, friction = 0.0;  // tangent of the ground's slope there, Coulomb
+};
+
+FootContact LetDown(const terrains::Heightfield& ground, const Vec2& p_WF, double radius_m) {
+  constexpr double kRings[] = {0.0, 0.25, 0.5, 0.75, 0.95};  // of the radius
+  constexpr int kDirections = 8;
+  FootContact contact;
+  Vec2 touched_W = p_WF;
+  for (const double ring : kRings) {
+    for (int k = 0; k < (ring == 0.0 ? 1 : kDirections); ++k) {
+      const double angle = 2.0 * std::numbers::pi * k / kDirections;
+      const Vec2 at_W = p_WF + ring * radius_m * Vec2(std::cos(angle), std::sin(angle));
+      const double z_m =
+          ground.HeightAt(at_W.x(), at_W.y()) + radius_m * std::sqrt(1.0 - ring * ring);
+      if (z_m <= contact.centre_z_m) continue;
+      contact.centre_z_m = z_m;
+      touched_W = at_W;
+    }
+  }
+  contact.slope = ground.At(touched_W.x(), touched_W.y()).gradient.norm();
+  contact.friction = ground.GroundAt(touched_W.x(), touched_W.y()).friction;
+  return contact;
+}
+
 /// Centres of the feet's spheres where they rest on the ground below a trunk at p_WB.
 LegArray<Vec3> RestingFeet(const core::RobotDescription& robot, const terrains::Heightfield& ground,
                            const Vec2& p_WB, const Mat3& R_WB) {
   LegArray<Vec3> feet = ZeroPerLeg();
   for (const Leg leg : kLegs) {
     const Vec2 at_W = p_WB + (R_WB * robot.NeutralFoothold(leg)).head<2>();
-    const double lift_m = robot.legs[leg].foot_radius_m / R_WB(2, 2);
-    feet[leg] = {at_W.x(), at_W.y(), ground.HeightAt(at_W.x(), at_W.y()) + lift_m};
+    feet[leg] = {at_W.x(), at_W.y(),
+                 LetDown(ground, at_W, robot.legs[leg].foot_radius_m).centre_z_m};
   }
   return feet;
 }
@@ -40,21 +67,16 @@ double Clearance(const terrains::Heightfield& ground, const Vec3& p_W) {
   return p_W.z() - ground.HeightAt(p_W.x(), p_W.y());
 }
 
-/// Friction left at the steepest place that the sphere of a foot may touch, as a share.
+/// Share of the friction that is left where a foot touches, and where it would if it settled by
+/// half its radius.
 double FrictionMargin(const terrains::Heightfield& ground, const Vec3& p_WF, double radius_m) {
-  constexpr int kDirections = 8;
-  // Of the friction: the feet also push sideways, and the trunk's weight is not shared equally.
+  // Of the friction: the feet also push sideways, and the weight is not shared equally.
   constexpr double kUsable = 0.7;
   double margin = 1.0;
-  for (int ring = 0; ring <= 2; ++ring) {
-    for (int k = 0; k < (ring == 0 ? 1 : kDirections); ++k) {
-      const double angle = 2.0 * std::numbers::pi * k / kDirections;
-      const Vec2 at_W =
-          p_WF.head<2>() + ring * radius_m * Vec2(std::cos(angle), std::sin(angle));
-      const double slope = ground.At(at_W.x(), at_W.y()).gradient.norm();
-      const double usable = kUsable * ground.GroundAt(at_W.x(), at_W.y()).friction;
-      margin = std::min(margin, 1.0 - slope / usable);
-    }
+  for (const auto& [x, y] :
+       {std::pair{0.0, 0.0}, {0.5, 0.0}, {-0.5, 0.0}, {0.0, 0.5}, {0.0, -0.5}}) {
+    const FootContact contact = LetDown(ground, p_WF.head<2>() + radius_m * Vec2(x, y), radius_m);
+    margin = std::min(margin, 1.0 - contact.slope / (kUsable * contact.friction));
   }
   return margin;
 }
@@ -169,17 +191,12 @@ double CalcStandingMargin(const core::RobotDescription& robot, const terrains::H
   return margin;
 }
 
-Place ChoosePlace(const core::RobotDescription& robot, const terrains::Heightfield& ground,
-                  std::span<const Place> places) {
-  Place best = places.front();
-  double best_margin = -std::numeric_limits<double>::infinity();
+ChosenPlace ChoosePlace(const core::RobotDescription& robot, const terrains::Heightfield& ground,
+                        std::span<const Place> places) {
+  ChosenPlace best{places.front(), -std::numeric_limits<double>::infinity()};
   for (const Place& place : places) {
-    const double margin =
-        CalcStandingMargin(robot, ground, PlaceStanding(robot, ground, place));
-    if (margin > best_margin) {
-      best = place;
-      best_margin = margin;
-    }
+    const double margin = CalcStandingMargin(robot, ground, PlaceStanding(robot, ground, place));
+    if (margin > best.margin) best = {place, margin};
     if (margin > 0.0) break;
   }
   return best;

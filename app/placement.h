@@ -25,16 +25,22 @@ struct Place {
                                     const terrains::Heightfield& ground, const Place& place);
 
 /// How well the ground carries a robot that was set down: the least of what is left of its limits,
-/// as shares of them; above 0 it stands. The limits: friction against the steepest slope that a foot
-/// may touch, tilt of the trunk, stretch of the legs, and room below trunk, thighs and shanks.
+/// as shares of them; above 0 it stands. The limits: friction against the steepest slope that a
+/// foot may touch, tilt of the trunk, stretch of the legs, and room below trunk, thighs and shanks.
 /// @param standing from PlaceStanding.
 [[nodiscard]] double CalcStandingMargin(const core::RobotDescription& robot,
                                         const terrains::Heightfield& ground,
                                         const RobotState& standing);
 
-/// The first place at which the robot stands well; where there is none, the best of them.
+/// The first place at which the robot stands well; where there is none, the best of them, with a
+/// margin of 0 or less.
+struct ChosenPlace {
+  Place place;
+  double margin = 0.0;  // as CalcStandingMargin
+};
 /// @param places in the order of preference, not empty.
-[[nodiscard]] Place ChoosePlace(const core::RobotDescription& robot,
-                                const terrains::Heightfield& ground, std::span<const Place> places);
+[[nodiscard]] ChosenPlace ChoosePlace(const core::RobotDescription& robot,
+                                      const terrains::Heightfield& ground,
+                                      std::span<const Place> places);
 
 }  // namespace scoria::app

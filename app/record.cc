@@ -288,7 +288,8 @@ void Recorder::RecordEvent(std::int64_t step, double time_s, const std::string& 
   msg::Event event{step, kind, detail};
   Write(RecordedTopics()[kEvent], time_s, event);
   // What replay needs to go on, and what robots are watched for.
-  const bool worth_keeping = kind != "placed" && kind != "contact_source" && kind != "payload";
+  const bool worth_keeping =
+      kind != "placed" && kind != "poor_ground" && kind != "contact_source" && kind != "payload";
   if (worth_keeping) sink_.MarkFall(ToNanoseconds(time_s));
 }
 

@@ -332,10 +332,15 @@ class Episode {
   /// Puts the robot down at rest near `wanted`, on its feet or folded, where it stands well, and
   /// starts a fresh controller. @returns where.
   Place SetDown(const Place& wanted, double ahead_m, bool standing) {
-    const Place place = ChoosePlace(robot_, ground_, operator_.PlacesAhead(wanted, ahead_m));
+    const auto [place, margin] =
+        ChoosePlace(robot_, ground_, operator_.PlacesAhead(wanted, ahead_m));
+    if (margin <= 0.0)
+      Announce("poor_ground", fmt::format("the robot hardly stands at x {:.3f} m, y {:.3f} m, the "
+                                          "best place that the operator found",
+                                          place.p_WB.x(), place.p_WB.y()));
     operator_.Resume(place);
-    const RobotState state = standing ? PlaceStanding(robot_, ground_, place)
-                                      : PlaceLying(robot_, ground_, place);
+    const RobotState state =
+        standing ? PlaceStanding(robot_, ground_, place) : PlaceLying(robot_, ground_, place);
     world_.Reset(state);
     sensors_.Reset();
     actuation_.Reset();

@@ -120,7 +120,30 @@ void DrawOverlay(cv::Mat& image, std::span<const core::LogRow> rows, std::size_t
   DrawGaitDiagram(image, rows, now);
 }
 
+/// The scene with its overlay, as OpenCV writes it.
+cv::Mat DrawImage(Scene& scene, const Frame& frame, std::span<const core::LogRow> rows,
+                  std::size_t now, const VideoOptions& options) {
+  const cv::Mat bgra(cv::Size(options.width_px, options.height_px), CV_8UC4,
+                     const_cast<std::uint8_t*>(scene.Draw(frame)));
+  cv::Mat image;
+  cv::cvtColor(bgra, image, cv::COLOR_BGRA2BGR);
+  DrawOverlay(image, rows, now, options.title);
+  return image;
+}
+
 }  // namespace
+
+std::string RenderStill(std::span<const core::LogRow> rows, const core::RobotDescription& robot,
+                        const terrains::Heightfield& ground, const VideoOptions& options) {
+  if (rows.empty()) throw std::runtime_error("picture: the log has no rows in this span");
+  Scene scene(robot, ground, options.width_px, options.height_px);
+  const std::size_t now = rows.size() - 1;
+  Frame frame = MakeFrame(rows[now], rows.first(now));
+  Camera().Update(rows[now], 0.0, frame);
+  std::vector<unsigned char> bytes;
+  cv::imencode(".jpg", DrawImage(scene, frame, rows, now, options), bytes);
+  return {bytes.begin(), bytes.end()};
+}
 
 void RenderVideo(std::span<const core::LogRow> rows, const core::RobotDescription& robot,
                  const terrains::Heightfield& ground, const VideoOptions& options) {
@@ -144,10 +167,7 @@ void RenderVideo(std::span<const core::LogRow> rows, const core::RobotDescriptio
     while (now + 1 < rows.size() && rows[now + 1].time_s <= start_s + k * dt_s) ++now;
     Frame frame = MakeFrame(rows[now], rows.first(now));
     camera.Update(rows[now], dt_s, frame);
-    const cv::Mat bgra(size, CV_8UC4, const_cast<std::uint8_t*>(scene.Draw(frame)));
-    cv::Mat image;
-    cv::cvtColor(bgra, image, cv::COLOR_BGRA2BGR);
-    DrawOverlay(image, rows, now, options.title);
+    const cv::Mat image = DrawImage(scene, frame, rows, now, options);
     writer.write(image);
     if (!options.frames.empty() && k % (options.frame_every_s * options.fps) == 0) {
       cv::imwrite((options.frames / fmt::format("frame_{:05d}.png", k)).string(), image);

@@ -27,4 +27,10 @@ struct VideoOptions {
 void RenderVideo(std::span<const core::LogRow> rows, const core::RobotDescription& robot,
                  const terrains::Heightfield& ground, const VideoOptions& options);
 
+/// One frame of that video, at the last row, as a JPEG. Errors: as RenderVideo.
+[[nodiscard]] std::string RenderStill(std::span<const core::LogRow> rows,
+                                      const core::RobotDescription& robot,
+                                      const terrains::Heightfield& ground,
+                                      const VideoOptions& options);
+
 }  // namespace scoria::analysis

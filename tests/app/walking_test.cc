@@ -8,6 +8,7 @@
 
 #include "analysis/metrics.h"
 #include "app/runner.h"
+#include "core/rng.h"
 #include "terrains/generator.h"
 #include "tests/support/robots.h"
 
@@ -395,9 +396,9 @@ TEST(Energy, MeterCountsTheWorkOfTheTrueJoints) {
 
 TEST(Energy, CostOfTransportDoesNotDependOnTheEncoders) {
   const auto cost = [](const char* sensors) {
-    return Walk(test::LoadScenario("flat", {std::string("sensors.type=") + sensors, "duration_s=20",
-                                            "controller.estimator.type=truth",
-                                            "controller.contact.source=truth"}))
+    return Walk(test::LoadScenario(
+                    "flat", {std::string("sensors.type=") + sensors, "duration_s=20",
+                             "controller.estimator.type=truth", "controller.contact.source=truth"}))
         .metrics;
   };
   const analysis::EpisodeMetrics real = cost("honest"), ideal = cost("ideal");
@@ -424,6 +425,46 @@ TEST(Rough, WalksSixMetresForEveryGaitAndLateContactOption) {
     }
   }
 }
+
+class DrawnPlaces : public ::testing::TestWithParam<const char*> {};
+
+// Both robots are set down at 67 places drawn on each of three presets, or on the nearest good
+// ground there, and stand for five seconds.
+TEST_P(DrawnPlaces, CarryBothRobots) {
+  constexpr int kPlaces = 67;
+  constexpr double kEdge_m = 5.0;
+  const std::string terrain = fmt::format("terrains/{}.yaml", GetParam());
+  core::Rng rng(20251017, 0, core::Stream::kOperator);
+  std::array<VelocityProgramme, kPlaces> places;
+  std::optional<terrains::Heightfield> ground;
+  for (const char* robot_file : {"robots/go2/go2.yaml", "robots/b12/b12.yaml"}) {
+    Scenario scenario = test::LoadScenario(
+        "flat", {fmt::format("terrain={{base: {}}}", test::SourcePath(terrain).string()),
+                 fmt::format("robot={{base: {}}}", test::SourcePath(robot_file).string()),
+                 "start=standing", "duration_s=5"});
+    const core::RobotDescription robot = core::LoadRobot(scenario.robot);
+    if (!ground) {
+      ground = terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);
+      const double inside_m = ground->half_size_m() - kEdge_m;
+      for (VelocityProgramme& place : places) {
+        place.start_x_m = rng.NextUniform(-inside_m, inside_m);
+        place.start_y_m = rng.NextUniform(-inside_m, inside_m);
+        place.start_yaw_rad = rng.NextUniform(-3.14, 3.14);
+      }
+    }
+    for (const VelocityProgramme& place : places) {
+      scenario.operation = place;
+      const EpisodeResult result = RunEpisode(scenario, robot, *ground, {});
+      EXPECT_EQ(result.falls, 0) << fmt::format(
+          "{} at {:.2f}, {:.2f}: {}", robot_file, place.start_x_m, place.start_y_m,
+          result.fall_events.empty() ? "" : result.fall_events.front().cause);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Presets, DrawnPlaces,
+                         ::testing::Values("vulcano_crater_rim", "pahoehoe", "mars_vl1"),
+                         [](const auto& test) { return std::string(test.param); });
 
 TEST(Recovery, FallenRobotIsSetOnItsFeetAndWalksOn) {
   Scenario scenario = test::LoadScenario("flat", {"duration_s=14"});
