@@ -35,9 +35,12 @@ std::string Verdict(const Comparison& c, const std::string& where) {
   Interval interval = c.ratio.interval;
   if (spread)
     interval = {std::min(interval.low, c.bootstrap.low), std::max(interval.high, c.bootstrap.high)};
-  const std::string counts = fmt::format("{} fell {} times in {:.0f} m, {} {} times in {:.0f} m",
-                                         c.a, c.cell_a.falls.events, c.cell_a.falls.exposure, c.b,
-                                         c.cell_b.falls.events, c.cell_b.falls.exposure);
+  const auto times = [](long n) {
+    return n == 1 ? std::string("once") : fmt::format("{} times", n);
+  };
+  const std::string counts = fmt::format("{} fell {} in {:.0f} m, {} {} in {:.0f} m", c.a,
+                                         times(c.cell_a.falls.events), c.cell_a.falls.exposure, c.b,
+                                         times(c.cell_b.falls.events), c.cell_b.falls.exposure);
   const std::string places = c.places.empty() ? "" : fmt::format("; {}", c.places);
   const auto number = [](double x) {
     return std::isinf(x) ? std::string("∞") : fmt::format("{:.2f}", x);
@@ -201,7 +204,7 @@ Comparison Compare(const CampaignResults& results, const std::string& a, const s
       DetectableRatio(reference, std::min(c.cell_a.falls.exposure, c.cell_b.falls.exposure));
   c.places =
       DescribeGroups(GroupFalls(results, {a, b}, point), CountGrounds(results, {a, b}, point));
-  c.verdict = Verdict(c, PointName(results.axes, point));
+  c.verdict = Verdict(c, point.empty() ? "Whole sweep" : PointName(results.axes, point));
   return c;
 }
 

@@ -181,7 +181,7 @@ void EdgeMatcher::Update(const Instant& now, EdgeQuality& quality) noexcept {
 
 void ContactAccumulator::Break() noexcept {
   window_.clear();
-  judged_ = 0;
+  first_ = judged_ = 0;
   has_judged_ = false;
   for (LegMatchers& leg : matchers_) {
     for (EdgeMatcher& m : leg.touchdown) m.Reset();
@@ -212,17 +212,24 @@ void ContactAccumulator::AddRow(const core::LogRow& row) {
 }
 
 void ContactAccumulator::JudgeNext() noexcept {
-  const double first_s = window_[judged_].time_s - kReach_s + kSameInstant_s;
-  while (judged_ > 0 && window_[1].time_s <= first_s) {
-    window_.pop_front();
-    --judged_;
-  }
-  if (window_.front().time_s <= first_s) {  // else too near to the start of the stretch
+  const double from_s = window_[judged_].time_s - kReach_s + kSameInstant_s;
+  while (first_ < judged_ && window_[first_ + 1].time_s <= from_s) ++first_;
+  if (window_[first_].time_s <= from_s) {  // else too near to the start of the stretch
     if (!has_judged_) debounced_ = window_[judged_].truth;
     has_judged_ = true;
     for (std::size_t leg = 0; leg < 4; ++leg) Judge(leg);
   }
   ++judged_;
+  Compact();
+}
+
+/// Forgets rows that are done with, many at a time.
+void ContactAccumulator::Compact() noexcept {
+  constexpr std::size_t kMany = 256;
+  if (first_ < kMany) return;
+  window_.erase(window_.begin(), window_.begin() + static_cast<std::ptrdiff_t>(first_));
+  judged_ -= first_;
+  first_ = 0;
 }
 
 /// Follows the truth where its new state lasts.
@@ -238,7 +245,8 @@ void ContactAccumulator::UpdateDebounced(std::size_t leg) noexcept {
 void ContactAccumulator::Judge(std::size_t leg) noexcept {
   UpdateDebounced(leg);
   bool any_contact = false, any_swing = false;
-  for (const Sample& s : window_) (s.truth[leg] ? any_contact : any_swing) = true;
+  for (std::size_t i = first_; i < window_.size(); ++i)
+    (window_[i].truth[leg] ? any_contact : any_swing) = true;
   if (any_contact != any_swing) JudgeSteady(leg);
   const Sample& now = window_[judged_];
   for (std::size_t k = 0; k < kNumContactWords; ++k) {

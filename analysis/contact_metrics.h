@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <deque>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -151,15 +150,16 @@ class ContactAccumulator {
     std::array<EdgeMatcher, kNumContactWords> touchdown, liftoff;
   };
   void JudgeNext() noexcept;
+  void Compact() noexcept;
   void CountSources(const core::LogRow& row) noexcept;
   void Judge(std::size_t leg) noexcept;
   void JudgeSteady(std::size_t leg) noexcept;
   void UpdateDebounced(std::size_t leg) noexcept;
 
   ContactMetrics metrics_;
-  // From the last row 15 ms before the judged one to the first 15 ms after it.
-  std::deque<Sample> window_;
-  std::size_t judged_ = 0;      // index of the row to be judged next
+  std::vector<Sample> window_;  // rows of this stretch; those before first_ are done with
+  std::size_t first_ = 0;       // the last row 15 ms before the judged one
+  std::size_t judged_ = 0;      // the row to be judged next
   bool has_judged_ = false;     // a row of this stretch
   std::array<LegMatchers, 4> matchers_{};
   std::array<bool, 4> debounced_{};

@@ -163,10 +163,14 @@ void ModelAccumulator::Close(double end_s) {
     const auto n = static_cast<double>(late_.rows);
     i.late_rows = late_.rows;
     i.late_bias_kg = late_.error_kg / n;
-    i.late_noise_kg =
-        std::sqrt(std::max(0.0, late_.error_kg2 / n - i.late_bias_kg * i.late_bias_kg));
     i.late_com_x_bias_m = late_.com_x_m / n;
     i.late_com_y_bias_m = late_.com_y_m / n;
+    const auto deviation = [n](double squares, double mean) {
+      return std::sqrt(std::max(0.0, squares / n - mean * mean));
+    };
+    i.late_noise_kg = deviation(late_.error_kg2, i.late_bias_kg);
+    i.late_com_x_noise_m = deviation(late_.com_x_m2, i.late_com_x_bias_m);
+    i.late_com_y_noise_m = deviation(late_.com_y_m2, i.late_com_y_bias_m);
   }
   const bool of_all = !i.settled || settled_.used_rows == 0;
   i.used_rows = of_all ? all_used_rows_ : settled_.used_rows;
@@ -185,7 +189,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(ModelInterval, start_s, duration
                                                 step_kg, settling_s, settled, rows, bias_kg,
                                                 rmse_kg, com_x_rmse_m, com_y_rmse_m, late_rows,
                                                 late_bias_kg, late_noise_kg, late_com_x_bias_m,
-                                                late_com_y_bias_m, used_rows, used_bias_kg)
+                                                late_com_y_bias_m, late_com_x_noise_m,
+                                                late_com_y_noise_m, used_rows, used_bias_kg)
 
 void to_json(nlohmann::json& j, const ModelMetrics& m) {
   j = {{"present", m.present}, {"intervals", m.intervals}};

@@ -88,6 +88,73 @@ void AppendModelRows(const Cell& cell, std::vector<Row>& rows) {
   if (by_number.size() > 1) rows.push_back(ModelRow(cell, "all", episodes, all));
 }
 
+/// Late values of an arm at a point: means over intervals.
+struct LateValues {
+  std::vector<double> bias_kg, noise_kg, com_x_bias_m, com_y_bias_m, com_x_noise_m, com_y_noise_m;
+  std::vector<double> step_share;  // learned over true change of mass, between late values
+  void Add(const ModelMetrics& m) {
+    const ModelInterval* before = nullptr;
+    for (const ModelInterval& i : m.intervals) {
+      if (i.late_rows == 0) {
+        before = nullptr;
+        continue;
+      }
+      bias_kg.push_back(i.late_bias_kg);
+      noise_kg.push_back(i.late_noise_kg);
+      com_x_bias_m.push_back(i.late_com_x_bias_m);
+      com_y_bias_m.push_back(i.late_com_y_bias_m);
+      com_x_noise_m.push_back(i.late_com_x_noise_m);
+      com_y_noise_m.push_back(i.late_com_y_noise_m);
+      if (before != nullptr && i.step_kg != 0.0)
+        step_share.push_back(1.0 + (i.late_bias_kg - before->late_bias_kg) / i.step_kg);
+      before = &i;
+    }
+  }
+};
+
+Row LateRow(const Cell& cell, const LateValues& late) {
+  const auto mean = [](const std::vector<double>& values, double scale, int digits) {
+    const MeanEstimate e = EstimateMean(values);
+    if (e.count == 0) return std::string("–");
+    return e.count == 1 ? fmt::format("{:.{}f}", scale * e.mean, digits)
+                        : fmt::format("{:.{}f} ± {:.{}f}", scale * e.mean, digits,
+                                      scale * e.deviation, digits);
+  };
+  Row row = cell.point;
+  row.push_back(cell.arm);
+  row.push_back(std::to_string(late.bias_kg.size()));
+  row.push_back(mean(late.bias_kg, 1.0, 3));
+  row.push_back(mean(late.noise_kg, 1.0, 3));
+  row.push_back(mean(late.com_x_bias_m, 1e3, 1));
+  row.push_back(mean(late.com_y_bias_m, 1e3, 1));
+  row.push_back(mean(late.com_x_noise_m, 1e3, 1));
+  row.push_back(mean(late.com_y_noise_m, 1e3, 1));
+  row.push_back(mean(late.step_share, 100.0, 1));
+  return row;
+}
+
+/// Bias, noise and size of the step once ten seconds have passed since a change of mass.
+void AddLateValues(const CampaignResults& results, const std::vector<Cell>& cells, HtmlPage& page) {
+  std::vector<Row> rows;
+  for (const Cell& cell : cells) {
+    LateValues late;
+    for (const ModelMetrics& m : cell.models) late.Add(m);
+    if (!late.bias_kg.empty()) rows.push_back(LateRow(cell, late));
+  }
+  if (rows.empty()) return;
+  Row header;
+  for (const Axis& axis : results.axes) header.push_back(axis.label);
+  for (const char* name :
+       {"arm", "intervals", "late bias [kg]", "noise [kg]", "COM x bias [mm]", "COM y bias [mm]",
+        "COM x noise [mm]", "COM y noise [mm]", "learned step [% of the true one]"}) {
+    header.emplace_back(name);
+  }
+  page.Table(header, rows);
+  page.Note(
+      "From ten seconds after a change of mass on, settled or not: mean ± standard deviation over "
+      "intervals. The learned step is the change of the late mean from one interval to the next.");
+}
+
 /// Time, learned mass, its band, used and true mass [kg], COM x learned and true, y [mm].
 std::vector<double> ModelPoint(const core::LogRow& r) {
   const bool known = r.operating && !r.fallen && HasLearnedModel(r);
@@ -216,6 +283,7 @@ void AddModelAdaptation(const CampaignResults& results, const std::vector<Cell>&
       "settles counts with its whole duration. Bias and RMSE are of the settled parts. The mass "
       "acted on is the one that gait, MPC and whole-body control used, without adaptation the "
       "nominal one.");
+  AddLateValues(results, cells, page);
 }
 
 CaptionedFigure ModelFigure(const LogContent& log, const std::string& name) {

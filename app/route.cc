@@ -125,11 +125,19 @@ class CostMap {
   std::vector<double> cost_;
 };
 
+constexpr double kRounding = 1e-9;  // of sums of costs
+
 /// Cheapest 8-connected path between two cells; `from` included, `to` not.
 std::vector<Cell> FindPath(const CostMap& map, Cell from, Cell to) {
   std::vector<double> best(map.cells(), std::numeric_limits<double>::infinity());
   std::vector<std::size_t> parent(map.cells());
-  const auto estimate = [&](Cell c) { return std::hypot(c.column - to.column, c.row - to.row); };
+  // At least the distance; of paths that cost the same, those near the straight line come first.
+  const auto estimate = [&](Cell c) {
+    constexpr double kTieBreak = 1e-4;
+    const double across = (c.column - to.column) * static_cast<double>(from.row - to.row) -
+                          (c.row - to.row) * static_cast<double>(from.column - to.column);
+    return std::hypot(c.column - to.column, c.row - to.row) + kTieBreak * std::abs(across);
+  };
   using Entry = std::pair<double, std::size_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
   const std::size_t start = map.Index(from), goal = map.Index(to);
@@ -140,7 +148,6 @@ std::vector<Cell> FindPath(const CostMap& map, Cell from, Cell to) {
     open.pop();
     if (index == goal) break;
     const Cell c = map.CellAt(index);
-    constexpr double kRounding = 1e-9;
     if (priority > best[index] + estimate(c) + kRounding) continue;  // an older, longer way
     for (int dr = -1; dr <= 1; ++dr) {
       for (int dc = -1; dc <= 1; ++dc) {
@@ -149,7 +156,7 @@ std::vector<Cell> FindPath(const CostMap& map, Cell from, Cell to) {
         const double cost =
             best[index] + std::hypot(dc, dr) * 0.5 * (map.Cost(c) + map.Cost(next));
         const std::size_t n = map.Index(next);
-        if (cost >= best[n]) continue;
+        if (cost >= best[n] - kRounding) continue;
         best[n] = cost;
         parent[n] = index;
         open.emplace(cost + estimate(next), n);

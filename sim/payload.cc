@@ -16,14 +16,6 @@ Mat3 PointInertia(double mass, const Vec3& d) noexcept {
   return mass * (d.squaredNorm() * Mat3::Identity() - d * d.transpose());
 }
 
-/// Principal moments of a solid box.
-Vec3 BoxInertia(double mass_kg, const Vec3& size_m) noexcept {
-  const Vec3 squares = size_m.cwiseProduct(size_m);
-  return mass_kg / 12.0 * (Vec3::Constant(squares.sum()) - squares);
-}
-
-bool HasZero(const Vec3& v) { return (v.array() == 0.0).any(); }
-
 std::string Text(const Vec3& p) {
   return fmt::format("({:.3f}, {:.3f}, {:.3f}) m", p[0], p[1], p[2]);
 }
@@ -45,17 +37,6 @@ std::string_view StrayKey(const PayloadEvent& e) {
 
 }  // namespace
 
-std::string PayloadParams::Problem() const {
-  // Rounding of hand-written moments, e.g. of a thin plate, where the triangle closes.
-  constexpr double kRounding = 1e-6;
-  if (name.empty()) return "name: must not be empty";
-  if (size_m != Vec3::Zero() && HasZero(size_m)) return "size_m: either all edges are 0 or none";
-  if (inertia_kgm2 == Vec3::Zero()) return "";
-  if (2.0 * inertia_kgm2.maxCoeff() > (1.0 + kRounding) * inertia_kgm2.sum())
-    return "inertia_kgm2: no body has a moment greater than the sum of the other two";
-  return "";
-}
-
 std::string PayloadEvent::Problem() const {
   const std::string_view verb = core::EnumName(action);
   if (at_s.has_value() == distance_m.has_value()) return "needs one of at_s and distance_m";
@@ -72,14 +53,6 @@ std::string PayloadEvent::Problem() const {
     return fmt::format("attach_velocity: rest is for add; what {} concerns moves with the trunk",
                        verb);
   return "";
-}
-
-RigidMass ToRigidMass(const PayloadParams& payload) noexcept {
-  const bool is_given = payload.inertia_kgm2 != Vec3::Zero();
-  const Vec3 moments =
-      is_given ? payload.inertia_kgm2 : BoxInertia(payload.mass_kg, payload.size_m);
-  const Mat3 R_BP = core::RotationFromRpy(payload.rpy_rad);
-  return {payload.mass_kg, payload.p_BP_m, R_BP * moments.asDiagonal() * R_BP.transpose()};
 }
 
 core::ModelParameters AddBodies(const core::ModelParameters& trunk,

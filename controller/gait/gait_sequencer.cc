@@ -10,6 +10,7 @@ namespace scoria::controller {
 namespace {
 
 constexpr int kMaxSpeedSamples = 100;
+constexpr double kLeastHeight_m = 0.05;
 
 LegArray<double> ToLegArray(const std::array<double, 4>& a) noexcept {
   return {a[0], a[1], a[2], a[3]};
@@ -119,6 +120,28 @@ class AdaptedSpeed {
   core::MovingMean<double, kMaxSpeedSamples> filter_;
 };
 
+/// Offsets of the gait, or of a walk while it is slow.
+class OffsetSwitch {
+ public:
+  OffsetSwitch(const SlowWalkParams& params, const std::array<double, 4>& offset) noexcept
+      : params_(params), own_(ToLegArray(offset)) {}
+  [[nodiscard]] LegArray<double> Update(double froude, double dt_s) noexcept {
+    const bool slow = froude < params_.walk_below_froude;
+    wanted_s_ = slow == walks_ ? 0.0 : wanted_s_ + dt_s;
+    if (wanted_s_ > params_.offset_delay_s) {
+      walks_ = slow;
+      wanted_s_ = 0.0;
+    }
+    return walks_ ? OffsetsOf(GaitPattern::kWalk) : own_;
+  }
+
+ private:
+  SlowWalkParams params_;
+  LegArray<double> own_;
+  bool walks_ = false;
+  double wanted_s_ = 0.0;  // that the speed has asked for the other offsets
+};
+
 class SimpleGait final : public PhasedGait {
  public:
   explicit SimpleGait(const SgsParams& params) noexcept
@@ -134,35 +157,44 @@ class SimpleGait final : public PhasedGait {
 class AdaptiveGait final : public PhasedGait {
  public:
   explicit AdaptiveGait(const AgsParams& params) noexcept
-      : PhasedGait(params.stand), params_(params), speed_(params.speed) {}
+      : PhasedGait(params.stand),
+        law_(params.law),
+        speed_(params.speed),
+        offsets_(params.slow_walk, params.offset) {}
 
  private:
   GaitTiming Timing(const GaitInput& in) noexcept override {
-    GaitTiming timing = params_.law.Timing(speed_.Update(in), in.height_m);
-    timing.offset = ToLegArray(params_.offset);
+    const double v_mps = speed_.Update(in);
+    GaitTiming timing = law_.Timing(v_mps, in.height_m);
+    timing.offset = offsets_.Update(law_.Froude(v_mps, in.height_m), in.dt_s);
     return timing;
   }
 
-  AgsParams params_;
+  StrideLaw law_;
   AdaptedSpeed speed_;
+  OffsetSwitch offsets_;
 };
 
 class MatchedGait final : public PhasedGait {
  public:
   MatchedGait(const SgsMatchedParams& params, double nominal_height_m) noexcept
-      : PhasedGait(params.stand), params_(params), nominal_height_m_(nominal_height_m) {}
+      : PhasedGait(params.stand),
+        params_(params),
+        nominal_height_m_(nominal_height_m),
+        offsets_(params.slow_walk, params.offset) {}
 
  private:
   GaitTiming Timing(const GaitInput& in) noexcept override {
     const double v = CommandedSpeed(in.command, params_.yaw_arm_m);
     if (v > 0.0) timing_ = params_.law.Timing(v, nominal_height_m_);
-    timing_.offset = ToLegArray(params_.offset);
+    timing_.offset = offsets_.Update(params_.law.Froude(v, nominal_height_m_), in.dt_s);
     return timing_;
   }
   bool ends_swings_early() const noexcept override { return false; }
 
   SgsMatchedParams params_;
   double nominal_height_m_;
+  OffsetSwitch offsets_;
   GaitTiming timing_;
 };
 
@@ -184,7 +216,7 @@ class BioGait final : public PhasedGait {
  private:
   GaitTiming Timing(const GaitInput& in) noexcept override {
     const double v = speed_.Update(in);
-    const double froude = v * v / (params_.gravity_mps2 * std::max(in.height_m, 0.05));
+    const double froude = v * v / (params_.gravity_mps2 * std::max(in.height_m, kLeastHeight_m));
     const std::size_t band = BandOf(froude);
     if (band != band_) {
       from_ = Blend();
@@ -265,10 +297,14 @@ GaitTiming SgsParams::Timing() const noexcept {
   return timing;
 }
 
+double StrideLaw::Froude(double v_mps, double h_m) const noexcept {
+  const double v = std::max(v_mps, min_speed_mps);
+  return v * v / (gravity_mps2 * std::max(h_m, kLeastHeight_m));
+}
+
 GaitTiming StrideLaw::Timing(double v_mps, double h_m) const noexcept {
-  const double v = std::max(v_mps, min_speed_mps), h = std::max(h_m, 0.05);
-  const double froude = v * v / (gravity_mps2 * h);
-  const double stride_m = 2.3 * std::pow(froude, 0.3) * h;
+  const double v = std::max(v_mps, min_speed_mps), h = std::max(h_m, kLeastHeight_m);
+  const double stride_m = 2.3 * std::pow(Froude(v_mps, h_m), 0.3) * h;
   double period = std::min(stride_m / v, max_stance_travel_m / v + swing_s);
   period = std::clamp(period, swing_s / (1.0 - min_duty), swing_s / (1.0 - max_duty));
   GaitTiming timing;

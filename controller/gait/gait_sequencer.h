@@ -61,6 +61,8 @@ struct StrideLaw {
   [[nodiscard]] std::string Problem() const {
     return min_duty < max_duty ? "" : "min_duty must be below max_duty";
   }
+  /// v²/(g h), with the law's least speed and height.
+  [[nodiscard]] double Froude(double v_mps, double h_m) const noexcept;
   /// @param v_mps speed, @param h_m COM height. Offsets are left at their default.
   [[nodiscard]] GaitTiming Timing(double v_mps, double h_m) const noexcept;
 };
@@ -128,17 +130,35 @@ struct SpeedParams {
   }
 };
 
+/// Walking slower than a Froude number, the legs take the offsets of a walk. Source: the reference
+/// framework's `switch_offsets`, which its real Go2 has on (0.02, 0.5 s); the paper trots only.
+struct SlowWalkParams {
+  double walk_below_froude = 0.0;
+  double offset_delay_s = 0.5;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Field(
+        "walk_below_froude", walk_below_froude,
+        {.min = 0.0, .max = 1.0, .doc = "v²/(g h) below which the offsets are a walk's; 0: never"});
+    a.Field(
+        "offset_delay_s", offset_delay_s,
+        {.min = 0.0, .max = 10.0, .doc = "for so long the speed must ask for the other offsets"});
+  }
+};
+
 /// Adaptive gait sequencer of the paper.
 struct AgsParams {
   static constexpr const char* kType = "ags";
   StrideLaw law;
   std::array<double, 4> offset = {0.0, 0.5, 0.5, 0.0};
+  SlowWalkParams slow_walk;
   SpeedParams speed;
   StandParams stand;
   template <class Archive>
   void Serialize(Archive& a) {
     a.Field("law", law);
     a.Field("offset", offset, {.min = 0.0, .max = 1.0, .doc = "FL, FR, HL, HR"});
+    slow_walk.Serialize(a);
     a.Field("speed", speed);
     a.Field("stand", stand);
   }
@@ -150,12 +170,14 @@ struct SgsMatchedParams {
   static constexpr const char* kType = "sgs_matched";
   StrideLaw law;
   std::array<double, 4> offset = {0.0, 0.5, 0.5, 0.0};
+  SlowWalkParams slow_walk;
   double yaw_arm_m = 0.3;
   StandParams stand;
   template <class Archive>
   void Serialize(Archive& a) {
     a.Field("law", law);
     a.Field("offset", offset, {.min = 0.0, .max = 1.0, .doc = "FL, FR, HL, HR"});
+    slow_walk.Serialize(a);
     a.Field("yaw_arm_m", yaw_arm_m, {.min = 0.0, .max = 1.0, .doc = "speed floor per yaw rate"});
     a.Field("stand", stand);
   }

@@ -10,6 +10,7 @@
 #include <console_bridge/console.h>
 #include <urdf_parser/urdf_parser.h>
 
+#include "core/math/so3.h"
 #include "core/robot/mesh.h"
 #include "core/robot/normalise.h"
 
@@ -311,6 +312,19 @@ void DrawBareBodies(RobotDescription& robot) {
   }
 }
 
+/// Fixes a body to the trunk: its inertia, and a box to be seen. Nothing collides with it.
+void Mount(const PayloadParams& params, RobotDescription& robot) {
+  const RigidMass body = ToRigidMass(params);
+  MergeInertia(robot.trunk, body.mass_kg, body.p_BP, body.I_P_B);
+  if (params.size_m == Vec3::Zero()) return;
+  Shape box;
+  box.size_m = params.size_m;
+  box.p_LG = params.p_BP_m;
+  box.R_LG = RotationFromRpy(params.rpy_rad);
+  box.colour = {0.25f, 0.25f, 0.28f};
+  robot.visuals.push_back(box);
+}
+
 }  // namespace
 
 double RobotDescription::total_mass_kg() const {
@@ -368,6 +382,7 @@ RobotDescription MakeRobot(const RobotConfig& config, const std::string& urdf_te
   robot.config = config;
   robot.urdf_text = urdf_text;
   TreeWalker(config, *model, robot).Walk();
+  for (const PayloadParams& body : config.equipment) Mount(body, robot);
   for (int i = 0; i < kNumBodies; ++i) {
     if (robot.body(i).mass_kg <= 0.0) Fail(config, robot.body(i).name, "needs a positive mass");
   }

@@ -8,6 +8,7 @@
 
 #include "core/config/archive.h"
 #include "core/robot/legs.h"
+#include "core/robot/payload_body.h"
 
 namespace scoria::core {
 
@@ -93,6 +94,7 @@ struct RobotConfig {
   double max_leg_length_m = 0.0;
   double foot_radius_m = 0.0;
   bool has_foot_sensors = true;
+  std::vector<PayloadParams> equipment;
   MotorParams motors;
   BatteryParams battery;
   template <class Archive>
@@ -101,10 +103,13 @@ struct RobotConfig {
     a.Required("urdf", urdf, {.doc = "relative to this file"});
     a.Required("legs", legs);
     a.Field("imu_link", imu_link, {.doc = "link at the IMU; empty: the base link"});
-    a.Field("nominal_height_m", nominal_height_m,
-            {.min = 0.0,
-             .max = 2.0,
-             .doc = "trunk over the ground when walking; 0: 0.7 of thigh and shank"});
+    a.Field(
+        "nominal_height_m", nominal_height_m,
+        {.min = 0.0,
+         .max = 2.0,
+         .doc = "walking: centre of mass over the plane through the footholds; standing up: base "
+                "link over the feet's centres; falls: base link over the ground. 0: 0.7 of "
+                "thigh and shank"});
     a.Field("stance_front_m", stance_front_m,
             {.doc = "neutral front left foothold from the base link, x y; mirrored to the right; "
                     "zeros: below the thigh"});
@@ -120,6 +125,10 @@ struct RobotConfig {
              .max = 0.5,
              .doc = "sphere about the foot link; 0: the link's own collision sphere"});
     a.Field("has_foot_sensors", has_foot_sensors);
+    a.Field(
+        "equipment", equipment,
+        {.doc =
+             "bodies fixed to the trunk that the URDF lacks; part of the model, unlike payloads"});
     a.Field("motors", motors);
     a.Field("battery", battery);
   }

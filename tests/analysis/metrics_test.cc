@@ -82,6 +82,30 @@ TEST(Metrics, PlacementsAndFallsAreNotWalking) {
   EXPECT_NEAR(r.walking_s, 20.0, 0.1);
 }
 
+// Windows that end in a fall, hold a fallback or go at another speed than the command are no points
+// of the cost curve.
+TEST(Metrics, OnlySteadyWindowsAreKept) {
+  MetricsAccumulator m(9.81);
+  Walk walk(0.5);
+  walk.Run(m, 8.5);  // settles for 3 s, one window, and falls 0.5 s after it
+  walk.row_.fallen = true;
+  walk.Run(m, 1.0);
+  walk.row_.fallen = false;
+  walk.row_.segment = 2;
+  walk.Run(m, 5.0);
+  walk.row_.fallen_back[4] = true;  // in the first window of this placement
+  walk.Run(m, 1.0);
+  walk.row_.fallen_back[4] = false;
+  walk.Run(m, 8.1);  // settles anew, one window
+  walk.row_.segment = 3;
+  Walk slow(0.2);
+  slow.row_ = walk.row_;
+  slow.Run(m, 20.0);
+  const EpisodeMetrics r = m.Finish();
+  ASSERT_EQ(r.windows.size(), 1u);
+  EXPECT_NEAR(r.windows[0].v_mps, 0.5, 1e-3);
+}
+
 TEST(Metrics, SpeedRippleWithinAStrideIsNoError) {
   MetricsAccumulator m(9.81);
   Walk walk(0.5);

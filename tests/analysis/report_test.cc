@@ -12,6 +12,7 @@
 
 #include "analysis/bias_budget.h"
 #include "analysis/compare.h"
+#include "analysis/fall_groups.h"
 #include "analysis/html.h"
 #include "analysis/model_report.h"
 #include "analysis/terrain_view.h"
@@ -111,6 +112,58 @@ TEST(Compare, VerdictNamesWhoFallsLessWithItsInterval) {
             0u)
       << c.verdict;
   EXPECT_EQ(PoolCell(results, "a", {"0.6"}).broken, 1);
+}
+
+// An episode that hardly walked adds its energy and its way, not its energy alone.
+TEST(Compare, PooledCostCountsEnergyAndWayOfTheSameEpisodes) {
+  const test::TemporaryFolder folder;
+  WriteCampaign(folder.path(), {}, [](const std::string&, int seed, EpisodeMetrics& m) {
+    m.distance_m = seed == 1 ? 0.5 : 50.0;
+    m.transport_J = 150.0 * m.distance_m;
+    m.energy.mech_abs_J = 75.0 * m.distance_m;
+    if (seed == 1) m.cot_mech_abs = 0.0;
+  });
+  EXPECT_NEAR(PoolCell(LoadResults(folder.path()), "a", {"0.3"}).cot_mech_abs, 0.5, 1e-12);
+}
+
+TEST(FallGroups, AreFallsWithinAMetreOnOneGround) {
+  CampaignResults results;
+  results.arms = {"a", "b"};
+  const auto walk = [&](const std::string& arm, const std::string& ground,
+                        const std::vector<Vec2>& places) {
+    EpisodeRecord e;
+    e.arm = arm;
+    e.ground = ground;
+    e.has_metrics = true;
+    for (const Vec2& p : places) e.metrics.falls.push_back({1.0, "tilt", p});
+    results.episodes.push_back(e);
+  };
+  walk("a", "g1", {{0.0, 0.0}, {0.9, 0.0}, {1.8, 0.0}, {5.0, 0.0}});  // a chain is one place
+  walk("b", "g1", {{0.5, 0.5}, {0.4, 0.4}});
+  walk("b", "g2", {{0.0, 0.0}});
+  walk("b", "g3", {});
+  const std::vector<FallGroup> groups = GroupFalls(results);
+  ASSERT_EQ(groups.size(), 3u);
+  EXPECT_EQ(groups[0].size(), 5u);
+  EXPECT_EQ(DescribeGroups(groups, CountGrounds(results, {"a", "b"}, {})),
+            "the 7 falls lie at 3 places, on 2 of 3 grounds; one place makes 5 of them");
+  EXPECT_EQ(GroupFalls(results, {"a"}).size(), 2u);
+  EXPECT_EQ(DescribeGroups({}, 3), "");
+}
+
+TEST(Report, BeginsWithVerdictBudgetPlacesAndPicture) {
+  const test::TemporaryFolder folder;
+  WriteCampaign(folder.path(), {}, [](const std::string&, int, EpisodeMetrics& m) {
+    for (FallEvent& fall : m.falls) fall.p_WB = Vec2(1.0, 2.0);
+  });
+  const std::string html =
+      core::ReadText(WriteReport(folder.path(), ReportPicture{"\xff\xd8", "The first fall"}));
+  const std::string head = html.substr(0, html.find("at each point</h2>"));
+  for (const char* part :
+       {"Whole sweep: a falls less than b", "<th>metres walked</th>",
+        "Smallest effect that this budget sees: a rate ratio of",
+        "The 36 falls lie at 3 places, on 3 of 3 grounds", "data:image/jpeg;base64,/9g="})
+    EXPECT_NE(head.find(part), std::string::npos) << part;
 }
 
 TEST(Report, IsSelfContainedAndShowsFailures) {

@@ -2,6 +2,7 @@
 #include "app/operator.h"
 
 #include <cmath>
+#include <functional>
 
 #include <gtest/gtest.h>
 
@@ -30,6 +31,63 @@ TEST(Route, LeadsAroundAWallThroughItsGap) {
     EXPECT_LT((route[(i + 1) % route.size()] - route[i]).norm(), 0.3)
         << "the loop has no gap at " << i;
   }
+}
+
+using Height = std::function<double(double x, double y)>;
+
+terrains::Heightfield GroundOf(const Height& height) {
+  constexpr int kNodes = 601;
+  constexpr double kSpacing_m = 0.05;
+  std::vector<double> heights;
+  for (int row = 0; row < kNodes; ++row) {
+    for (int column = 0; column < kNodes; ++column)
+      heights.push_back(
+          height((column - kNodes / 2) * kSpacing_m, (row - kNodes / 2) * kSpacing_m));
+  }
+  return {kNodes, kSpacing_m, std::move(heights), {}};
+}
+
+// A gully along x across the whole tile, everywhere too deep to be free: 0.5 m, but 0.15 m deep
+// near x = 3 and x = -10.
+TEST(Route, CrossesAGullyWhereItIsLowest) {
+  const terrains::Heightfield ground = GroundOf([](double x, double y) {
+    const double depth = std::min(std::abs(x - 3.0), std::abs(x + 10.0)) < 1.0 ? 0.15 : 0.5;
+    return -depth * std::max(0.0, 1.0 - std::abs(y) / 0.4);
+  });
+  int crossings = 0;
+  const Route route = PlanRoute({}, test::Go2(), ground);
+  for (std::size_t i = 0; i < route.size(); ++i) {
+    if (route[i].y() * route[(i + 1) % route.size()].y() > 0.0) continue;
+    ++crossings;
+    EXPECT_LT(std::min(std::abs(route[i].x() - 3.0), std::abs(route[i].x() + 10.0)), 1.0);
+  }
+  EXPECT_GE(crossings, 2);
+}
+
+// Boulders of 0.3 m on the circle, also where the loop would start.
+TEST(Route, GoesAroundBoulders) {
+  const auto height = [](double x, double y) {
+    const double angle = std::remainder(std::atan2(y, x), 0.19634954);  // 32 of them
+    const double away = std::hypot(std::hypot(x, y) - 8.0, 8.0 * angle);
+    return std::max(0.0, 0.3 - away);
+  };
+  const Route route = PlanRoute({}, test::Go2(), GroundOf(height));
+  for (const Vec2& p : route) EXPECT_LT(height(p.x(), p.y()), 0.02) << p.transpose();
+}
+
+// After a fall the robot is put on the route, ahead of the fall and not on the boulder there.
+TEST(Operator, OffersPlacesAheadOnTheRoute) {
+  const terrains::Heightfield ground = test::FlatGround(0.8, 30.0);
+  const Operator person(RouteParams{}, test::Go2(), ground);
+  const Place fall{Vec2(0.3, 8.1), 2.0};
+  const std::vector<Place> places = person.PlacesAhead(fall, 0.5);
+  ASSERT_FALSE(places.empty());
+  EXPECT_NEAR((places.front().p_WB - Vec2(0.3, 8.0)).norm(), 0.5, 0.2);
+  EXPECT_LT(places.front().p_WB.x(), 0.0) << "the loop runs against the clock";
+  EXPECT_NEAR(std::abs(places.front().yaw_rad), 3.14, 0.3);
+  double furthest_m = 0.0;
+  for (const Place& p : places) furthest_m = std::max(furthest_m, (p.p_WB - fall.p_WB).norm());
+  EXPECT_GT(furthest_m, 4.0);
 }
 
 TEST(Operator, LeadsAnIdealRobotAroundTheLoop) {

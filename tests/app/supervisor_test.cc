@@ -65,9 +65,12 @@ TEST(SupervisorScenario, ChangeOfTheControllerKeepsTheContactFallback) {
   const terrains::Heightfield ground =
       terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);
   long on_fallback = 0, by_failed_sensor = 0;
+  bool engaged = false;  // before this row's contacts were found
   EpisodeSinks sinks;
   sinks.on_row = [&](const core::LogRow& row, const core::SolveTimes&) {
-    if (!row.fallen_back[static_cast<std::size_t>(controller::Watch::kContact)]) return;
+    const bool was_engaged = engaged;
+    engaged = row.fallen_back[static_cast<std::size_t>(controller::Watch::kContact)];
+    if (!was_engaged || !engaged) return;
     ++on_fallback;
     for (std::size_t leg = 0; leg < 4; ++leg) {
       const bool sensor = row.contact_source[leg] == static_cast<int>(ContactSource::kSensor);

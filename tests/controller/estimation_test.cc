@@ -162,8 +162,9 @@ TEST_P(Estimator, HandsItsGyroBiasAndCovarianceToTheNext) {
     EXPECT_GT(Eigen::SelfAdjointEigenSolver<StateEstimate::Mat5>(surplus).eigenvalues().minCoeff(),
               0.0);
     constexpr double kTiltOfABaseline_rad = 0.02;  // of an estimator that states no covariance
-    if (last.P_tilt_v.isZero())
+    if (last.P_tilt_v.isZero()) {
       EXPECT_GT(std::sqrt(first.P_tilt_v(0, 0)), kTiltOfABaseline_rad);
+    }
   }
 }
 

@@ -277,5 +277,30 @@ TEST(MatchedGait, IgnoresTheMeasuredSpeed) {
   EXPECT_NEAR(period, 0.659, 2e-3);
 }
 
+// Below Fr 0.02 (0.243 m/s at 0.3 m) for longer than the delay, the legs take a walk's offsets, and
+// above it a trot's again; off by default.
+TEST(AdaptiveGait, WalksBelowAFroudeNumberAfterADelay) {
+  AgsParams params;
+  GaitInput in;
+  in.height_m = 0.30;
+  const auto offset_after = [&](GaitSequencer& gait, double v_mps, double seconds) {
+    in.command.v_x_mps = in.v_xy_mps = v_mps;
+    ContactPlan plan;
+    for (int i = 0; i < std::lround(seconds / in.dt_s); ++i) plan = gait.Plan(in);
+    return plan.offset;
+  };
+  const LegArray<double> trot{0.0, 0.5, 0.5, 0.0}, walk{0.0, 0.5, 0.75, 0.25};
+  EXPECT_EQ(offset_after(*MakeGaitSequencer(params, 0.3), 0.1, 3.0), trot);
+  params.slow_walk.walk_below_froude = 0.02;
+  const auto gait = MakeGaitSequencer(params, 0.3);
+  EXPECT_EQ(offset_after(*gait, 0.3, 2.0), trot);
+  EXPECT_EQ(offset_after(*gait, 0.2, 0.5), trot) << "within the delay";
+  EXPECT_EQ(offset_after(*gait, 0.2, 0.5), walk);
+  EXPECT_EQ(offset_after(*gait, 0.3, 2.0), trot);
+  SgsMatchedParams matched;
+  matched.slow_walk.walk_below_froude = 0.02;
+  EXPECT_EQ(offset_after(*MakeGaitSequencer(matched, 0.3), 0.2, 1.0), walk);
+}
+
 }  // namespace
 }  // namespace scoria::controller

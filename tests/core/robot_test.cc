@@ -307,5 +307,23 @@ TEST(Mesh, ReadsObjAndColladaInMetres) {
   EXPECT_FALSE(LoadMesh(folder.path() / "none.stl", Vec3::Ones()).has_value());
 }
 
+// The paper's robot: 16.21 kg, of which the controller knows.
+TEST(Robot, EquipmentIsPartOfTheTrunk) {
+  const RobotDescription bare = test::Go2();
+  RobotConfig config = bare.config;
+  PayloadParams kit;
+  kit.name = "kit";
+  kit.mass_kg = 1.19;
+  kit.p_BP_m = Vec3(0.1, 0.0, 0.11);
+  kit.size_m = Vec3(0.18, 0.14, 0.06);
+  config.equipment = {kit};
+  const RobotDescription robot = MakeRobot(config, bare.urdf_text);
+  EXPECT_NEAR(robot.total_mass_kg(), bare.total_mass_kg() + 1.19, 1e-12);
+  const Vec3 moment = bare.trunk.mass_kg * bare.trunk.p_LC + 1.19 * kit.p_BP_m;
+  EXPECT_LT((robot.trunk.p_LC - moment / robot.trunk.mass_kg).norm(), 1e-12);
+  EXPECT_EQ(robot.visuals.size(), bare.visuals.size() + 1);
+  EXPECT_EQ(robot.config.nominal_height_m, bare.config.nominal_height_m);
+}
+
 }  // namespace
 }  // namespace scoria::core
