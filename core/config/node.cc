@@ -2,12 +2,14 @@
 #include "core/config/node.h"
 
 #include <algorithm>
-#include <fstream>
 #include <numeric>
 #include <sstream>
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
+
+#include "core/config/source.h"
+#include "core/text.h"
 
 namespace scoria::core {
 namespace {
@@ -17,6 +19,22 @@ namespace fs = std::filesystem;
 Origin OriginOf(const YAML::Mark& mark, const std::string& file) {
   if (mark.is_null()) return {file, 0, 0};
   return {file, mark.line + 1, mark.column + 1};  // yaml-cpp counts from 0
+}
+
+/// Lays the map, or the maps, of a merge key `<<` under the keys of `node`; the first of equals
+/// counts. Source: YAML 1.1, "Merge Key Language-Independent Type".
+void MergeUnder(ConfigNode& node, const ConfigNode& merged) {
+  if (merged.kind == ConfigNode::Kind::kSequence) {
+    for (const ConfigNode& item : merged.items) MergeUnder(node, item);
+    return;
+  }
+  if (merged.kind != ConfigNode::Kind::kMap) {
+    throw ConfigError(merged.origin, "<<",
+                      "merges maps of this file, as <<: *anchor; use base: for a file");
+  }
+  for (const ConfigNode::Entry& entry : merged.entries) {
+    if (node.Find(entry.key) == nullptr) node.entries.push_back(entry);
+  }
 }
 
 ConfigNode Convert(const YAML::Node& yaml, const std::string& file, const std::string& path,
@@ -40,8 +58,9 @@ ConfigNode Convert(const YAML::Node& yaml, const std::string& file, const std::s
         node.items.push_back(Convert(yaml[i], file, fmt::format("{}[{}]", path, i), depth + 1));
       }
       break;
-    case YAML::NodeType::Map:
+    case YAML::NodeType::Map: {
       node.kind = ConfigNode::Kind::kMap;
+      std::vector<ConfigNode> merged;
       for (const auto& pair : yaml) {
         const std::string key = pair.first.Scalar();
         const std::string key_path = path.empty() ? key : path + "." + key;
@@ -55,21 +74,29 @@ ConfigNode Convert(const YAML::Node& yaml, const std::string& file, const std::s
         }
         ConfigNode value = Convert(pair.second, file, key_path, depth + 1);
         if (value.origin.line == 0) value.origin = key_origin;  // an empty value has no mark
-        node.entries.push_back({key, key_origin, std::move(value)});
+        if (key == "<<" && pair.first.Tag() == "?") {
+          merged.push_back(std::move(value));
+        } else {
+          node.entries.push_back({key, key_origin, std::move(value)});
+        }
       }
+      for (const ConfigNode& under : merged) MergeUnder(node, under);
       break;
+    }
   }
   return node;
 }
 
-ConfigNode ParseYaml(const std::string& text, const std::string& name) {
+ConfigNode ParseYaml(const std::string& text, const Origin& origin) {
+  CheckUtf8(text, origin);
+  const std::string& name = origin.file;
   try {
     const std::vector<YAML::Node> documents = YAML::LoadAll(text);
     if (documents.size() > 1)
       throw ConfigError({name, 0, 0}, "", "holds more than one YAML document");
     return documents.empty() ? ConfigNode{} : Convert(documents.front(), name, "");
   } catch (const YAML::Exception& e) {
-    throw ConfigError(OriginOf(e.mark, name), "", "not valid YAML: " + e.msg);
+    throw ConfigError(OriginOf(e.mark, name), "", "not valid YAML: " + Shown(e.msg, 200));
   }
 }
 
@@ -101,14 +128,7 @@ ConfigNode LoadWithBases(const fs::path& file, const Origin& asked_by,
     throw ConfigError(asked_by, "base", fmt::format("{} includes itself", normal.string()));
   }
   chain.push_back(normal);
-  std::ifstream in(normal);
-  if (!in) {
-    const std::string rule = fmt::format("cannot read the file {}", normal.string());
-    throw ConfigError(asked_by, asked_by.line > 0 ? "base" : "", rule);
-  }
-  std::stringstream text;
-  text << in.rdbuf();
-  ConfigNode node = ParseYaml(text.str(), normal.string());
+  ConfigNode node = ParseYaml(ReadYamlText(normal, asked_by), {normal.string(), 0, 0});
   ResolveBases(node, chain);
   return node;
 }
@@ -146,6 +166,8 @@ bool NeedsQuotes(const std::string& s) {
   return s.find_first_of("\n\"#") != std::string::npos || s.find(": ") != std::string::npos ||
          s.back() == ' ' || s.back() == ':';
 }
+
+constexpr std::size_t kLongestRule = 2000;  // "known here" lists every key
 
 std::string OpenUnlessEmpty(std::string_view part) {
   return part.empty() ? "" : fmt::format("{}: ", part);
@@ -192,8 +214,8 @@ std::string Origin::ToString() const {
 }
 
 ConfigError::ConfigError(const Origin& origin, std::string_view key, std::string_view rule)
-    : std::runtime_error(OpenUnlessEmpty(origin.ToString()) + OpenUnlessEmpty(key) +
-                         std::string(rule)) {}
+    : std::runtime_error(OpenUnlessEmpty(origin.ToString()) + OpenUnlessEmpty(Shown(key, 120)) +
+                         Shown(rule, kLongestRule)) {}
 
 const ConfigNode* ConfigNode::Find(std::string_view key) const {
   for (const Entry& entry : entries) {
@@ -211,7 +233,7 @@ ConfigNode LoadConfig(const fs::path& file) {
 }
 
 ConfigNode ParseConfig(const std::string& text, const std::string& name) {
-  ConfigNode node = ParseYaml(text, name);
+  ConfigNode node = ParseYaml(text, {name, 0, 0});
   ResolveBases(node, {fs::path(name).lexically_normal()});
   return node;
 }
@@ -266,7 +288,7 @@ void MergeConfig(ConfigNode& onto, const ConfigNode& over) {
 }
 
 void ApplyOverride(ConfigNode& root, const std::string& assignment) {
-  ApplyAssignment(root, assignment, {"--set " + assignment, 0, 0, true});
+  ApplyAssignment(root, assignment, {"--set " + Shown(assignment, 120), 0, 0, true});
 }
 
 void ApplyAssignment(ConfigNode& root, const std::string& assignment, const Origin& origin) {
@@ -274,7 +296,7 @@ void ApplyAssignment(ConfigNode& root, const std::string& assignment, const Orig
   if (equals == std::string::npos || equals == 0) {
     throw ConfigError(origin, "", "must read key.subkey=value");
   }
-  ConfigNode value = ParseYaml(assignment.substr(equals + 1), origin.file);
+  ConfigNode value = ParseYaml(assignment.substr(equals + 1), origin);
   SetOrigin(value, origin);
   ResolveBases(value, {});
   SetAt(root, assignment.substr(0, equals), std::move(value));
@@ -302,6 +324,8 @@ std::string EmitYaml(const ConfigNode& node) {
 }
 
 std::string DidYouMean(std::string_view word, const std::vector<std::string>& choices) {
+  constexpr std::size_t kLongestWord = 100;
+  if (word.size() > kLongestWord) return "";
   const std::string* best = nullptr;
   int best_distance = 1 + static_cast<int>(std::max<std::size_t>(2, word.size() / 3));
   for (const std::string& choice : choices) {

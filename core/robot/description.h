@@ -143,6 +143,7 @@ struct JointDescription {
   Vec3 axis_J = Vec3::UnitX();
   double lower_rad = 0.0, upper_rad = 0.0, effort_Nm = 0.0, velocity_radps = 0.0;
   double urdf_sign = 1.0, urdf_zero_rad = 0.0;
+  double urdf_damping_Nms_per_rad = 0.0, urdf_friction_Nm = 0.0;  // <dynamics>; not used
 };
 
 struct LegDescription {
@@ -176,7 +177,8 @@ struct RobotDescription {
   Vec3 p_BS = Vec3::Zero();  // IMU in the trunk
   Mat3 R_BS = Mat3::Identity();
   std::vector<Shape> collisions, visuals;
-  std::vector<std::string> remarks;  // what of the URDF could not be taken as it stands
+  std::vector<std::string> remarks;      // what of the URDF could not be taken as it stands
+  std::vector<std::string> held_joints;  // that move in the URDF, outside of the legs; held at zero
 
   [[nodiscard]] double total_mass_kg() const;
   /// Neutral foothold in the trunk frame at z = 0: below the hip, widened by the abduction link.

@@ -27,8 +27,10 @@ struct MeshBounds {
 [[nodiscard]] std::optional<MeshBounds> CalcMeshBounds(const std::filesystem::path& file,
                                                        const Vec3& scale);
 
-/// The file that a URDF means: relative to the URDF, file://PATH, or package://PACKAGE/PATH, whose
-/// package is looked for in the folders above the URDF, by name or as the folder itself.
+/// The file that a URDF means: relative to the URDF, file:PATH, file://HOST/PATH, or
+/// package://PACKAGE/PATH and model://MODEL/PATH, whose package or model is looked for in the
+/// folders above the URDF, by name or as the folder itself. Percent escapes (%20) are decoded
+/// unless a file has them in its name.
 [[nodiscard]] std::filesystem::path FindMesh(const std::string& name,
                                              const std::filesystem::path& urdf);
 
