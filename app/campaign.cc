@@ -15,6 +15,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "app/campaign_file.h"
+#include "app/config_kinds.h"
 #include "app/progress.h"
 #include "app/scenario.h"
 #include "app/version.h"
@@ -27,44 +29,7 @@ namespace fs = std::filesystem;
 using core::ConfigError;
 using core::ConfigNode;
 
-/// The part of a campaign file that has a fixed form.
-struct CampaignFile {
-  std::string name;
-  std::uint64_t first_seed = 1;
-  int seeds = 3;
-  template <class Archive>
-  void Serialize(Archive& a) {
-    a.Required("name", name);
-    a.Field("first_seed", first_seed);
-    a.Field("seeds", seeds, {.min = 1, .max = 100000});
-  }
-};
-
-const ConfigNode& Require(const ConfigNode& node, const char* key) {
-  const ConfigNode* child = node.Find(key);
-  if (child == nullptr) throw ConfigError(node.origin, key, "is missing and has no default");
-  return *child;
-}
-
-/// A name and what it changes.
-CampaignArm ReadArm(const ConfigNode& node, const std::string& path) {
-  CampaignArm arm;
-  for (const ConfigNode::Entry& entry : node.entries) {
-    if (entry.key == "name") {
-      core::ConfigReader::Read(entry.value, path + ".name", arm.name);
-    } else if (entry.key == "set") {
-      if (entry.value.kind != ConfigNode::Kind::kMap)
-        throw ConfigError(entry.value.origin, path + ".set", "must be a map of scenario keys");
-      arm.set = entry.value;
-    } else {
-      throw ConfigError(entry.key_origin, path + "." + entry.key,
-                        "unknown key; known here: name, set");
-    }
-  }
-  if (arm.name.empty())
-    throw ConfigError(node.origin, path + ".name", "is missing and has no default");
-  return arm;
-}
+CampaignArm ToArm(const ArmFile& file) { return {file.name, file.set.node}; }
 
 void AddValue(const ConfigNode& value, CampaignAxis& axis) {
   ConfigNode set;
@@ -75,21 +40,10 @@ void AddValue(const ConfigNode& value, CampaignAxis& axis) {
                                                                : core::EmitYaml(value));
 }
 
-CampaignAxis ReadAxis(const ConfigNode& node, std::size_t index) {
+/// @param node  of the axis, for places in messages.
+CampaignAxis MakeAxis(const AxisFile& file, const ConfigNode& node, std::size_t index) {
   const std::string path = fmt::format("sweep[{}]", index);
-  CampaignAxis axis;
-  for (const ConfigNode::Entry& entry : node.entries) {
-    if (entry.key == "key") {
-      core::ConfigReader::Read(entry.value, path + ".key", axis.key);
-    } else if (entry.key == "label") {
-      core::ConfigReader::Read(entry.value, path + ".label", axis.label);
-    } else if (entry.key == "baseline") {
-      core::ConfigReader::Read(entry.value, path + ".baseline", axis.baseline);
-    } else if (entry.key != "values" && entry.key != "variants") {
-      throw ConfigError(entry.key_origin, path + "." + entry.key,
-                        "unknown key; known here: key, label, baseline, values, variants");
-    }
-  }
+  CampaignAxis axis{file.key, file.label, {}, {}, file.baseline};
   const ConfigNode *values = node.Find("values"), *variants = node.Find("variants");
   if (variants != nullptr && (values != nullptr || !axis.key.empty()))
     throw ConfigError(variants->origin, path + ".variants", "stands in place of key and values");
@@ -98,18 +52,13 @@ CampaignAxis ReadAxis(const ConfigNode& node, std::size_t index) {
   if (variants == nullptr && axis.key.empty())
     throw ConfigError(node.origin, path + ".key", "is missing and has no default");
   if (axis.label.empty()) axis.label = axis.key;
-  const ConfigNode* list = variants != nullptr ? variants : values;
-  const std::string list_path = path + (variants != nullptr ? ".variants" : ".values");
-  if (list == nullptr || list->kind != ConfigNode::Kind::kSequence || list->items.empty())
-    throw ConfigError(node.origin, list_path, "must list at least one");
-  for (std::size_t i = 0; i < list->items.size(); ++i) {
-    if (variants == nullptr) {
-      AddValue(list->items[i], axis);
-      continue;
-    }
-    CampaignArm variant = ReadArm(list->items[i], fmt::format("{}[{}]", list_path, i));
-    axis.sets.push_back(std::move(variant.set));
-    axis.names.push_back(std::move(variant.name));
+  if (file.values.empty() && file.variants.empty())
+    throw ConfigError(node.origin, path + (variants != nullptr ? ".variants" : ".values"),
+                      "must list at least one");
+  for (const ConfigNode& value : file.values) AddValue(value, axis);
+  for (const ArmFile& variant : file.variants) {
+    axis.sets.push_back(variant.set.node);
+    axis.names.push_back(variant.name);
   }
   if (axis.key.empty()) axis.key = axis.label;
   if (!axis.baseline.empty() && !std::ranges::count(axis.names, axis.baseline))
@@ -237,28 +186,18 @@ void WriteIndex(const Campaign& campaign, const std::vector<Job>& jobs, const fs
 }  // namespace
 
 Campaign LoadCampaign(const fs::path& file, const std::vector<std::string>& overrides) {
-  ConfigNode node = core::LoadConfig(file);
-  for (const std::string& assignment : overrides) core::ApplyOverride(node, assignment);
+  const ConfigNode node = LoadKind("campaign", file, overrides);
+  const auto read = core::ReadConfig<CampaignFile>(node);
+  if (read.arms.empty())
+    throw ConfigError(node.Find("arms")->origin, "arms", "must list at least one arm");
   Campaign campaign;
-  campaign.scenario = Require(node, "scenario");
-  const ConfigNode &arms = Require(node, "arms"), *sweep = node.Find("sweep");
-  for (const auto& [list, key] : {std::pair{&arms, "arms"}, std::pair{sweep, "sweep"}}) {
-    if (list != nullptr && list->kind != ConfigNode::Kind::kSequence)
-      throw ConfigError(list->origin, key, "must be a list, one \"- \" per entry");
-  }
-  for (std::size_t i = 0; i < arms.items.size(); ++i)
-    campaign.arms.push_back(ReadArm(arms.items[i], fmt::format("arms[{}]", i)));
-  if (campaign.arms.empty()) throw ConfigError(arms.origin, "arms", "must list at least one arm");
-  for (std::size_t i = 0; sweep != nullptr && i < sweep->items.size(); ++i) {
-    campaign.sweep.push_back(ReadAxis(sweep->items[i], i));
-  }
-  std::erase_if(node.entries, [](const ConfigNode::Entry& e) {
-    return e.key == "scenario" || e.key == "arms" || e.key == "sweep";
-  });
-  const auto rest = core::ReadConfig<CampaignFile>(node);
-  campaign.name = rest.name;
-  campaign.first_seed = rest.first_seed;
-  campaign.seeds = rest.seeds;
+  campaign.name = read.name;
+  campaign.scenario = read.scenario.node;
+  campaign.first_seed = read.first_seed;
+  campaign.seeds = read.seeds;
+  for (const ArmFile& arm : read.arms) campaign.arms.push_back(ToArm(arm));
+  for (std::size_t i = 0; i < read.sweep.size(); ++i)
+    campaign.sweep.push_back(MakeAxis(read.sweep[i], node.Find("sweep")->items[i], i));
   (void)AllJobs(campaign);  // checks every scenario
   return campaign;
 }

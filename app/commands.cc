@@ -17,6 +17,7 @@
 #include "app/bench.h"
 #include "app/campaign.h"
 #include "app/config_docs.h"
+#include "app/config_kinds.h"
 #include "app/episode_files.h"
 #include "app/inspection.h"
 #include "app/progress.h"
@@ -110,6 +111,11 @@ void AddRun(CLI::App& app, int& exit_code) {
                                     : std::filesystem::path(o->out);
     options.interrupted = &g_interrupted;
     options.save_qps = o->save_qps;
+    if (!o->quiet) {
+      options.on_warning = [](const std::string& warning) {
+        fmt::print(stderr, "warning: {}\n", warning);
+      };
+    }
     EpisodeReport report;
     {
       ProgressBar bar(scenario.name);
@@ -230,11 +236,19 @@ void AddCheckQps(CLI::App& app, int& exit_code) {
 }
 
 void AddSchema(CLI::App& app) {
-  auto markdown = std::make_shared<bool>(false);
-  CLI::App* schema = app.add_subcommand("schema", "print the scenario keys as a JSON Schema");
-  schema->add_flag("--markdown", *markdown, "as the table of docs/CONFIG.md");
+  struct Options {
+    std::string kind = "scenario";
+    bool markdown = false;
+  };
+  auto o = std::make_shared<Options>();
+  CLI::App* schema = app.add_subcommand("schema", "print the keys of a YAML file as a JSON Schema");
+  std::vector<std::string> kinds;
+  for (const ConfigKind& kind : ConfigKinds()) kinds.emplace_back(kind.name);
+  schema->add_option("kind", o->kind, "kind of file (default scenario)")
+      ->check(CLI::IsMember(kinds));
+  schema->add_flag("--markdown", o->markdown, "all kinds as the tables of docs/CONFIG.md");
   schema->callback(
-      [markdown] { fmt::print("{}", *markdown ? ConfigMarkdown() : ConfigJsonSchema()); });
+      [o] { fmt::print("{}", o->markdown ? ConfigMarkdown() : ConfigJsonSchema(o->kind)); });
 }
 
 void AddVerify(CLI::App& app, int& exit_code) {

@@ -9,6 +9,7 @@
 
 #include "analysis/terrain_view.h"
 #include "app/qp_recorder.h"
+#include "app/robot_warnings.h"
 #include "app/version.h"
 #include "core/files.h"
 #include "terrains/generator.h"
@@ -28,6 +29,14 @@ nlohmann::json CountersToJson(const Counters& counters) {
   return json;
 }
 
+void Warn(const Scenario& scenario, const core::RobotDescription& robot,
+          const terrains::Terrain& terrain, const std::function<void(const std::string&)>& warn) {
+  for (const std::string& w : WalkWarnings(robot, scenario.controller.mpc, scenario.gravity_mps2))
+    warn(fmt::format("{}: {}", robot.config.name, w));
+  for (const std::string& remark : terrains::HeightmapRemarks(terrain, scenario.terrain))
+    warn(fmt::format("{}: {}", scenario.terrain.name, remark));
+}
+
 namespace fs = std::filesystem;
 
 }  // namespace
@@ -37,10 +46,11 @@ EpisodeReport RunToFolder(const Scenario& scenario, const RunOptions& options) {
   fs::create_directories(options.folder);
   fs::remove(options.folder / "result.json");  // an old result must not stand beside a new scenario
   core::WriteText(options.folder / "scenario.yaml", EffectiveYaml(scenario));
-  const terrains::Heightfield ground =
-      terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);
-  const nlohmann::json terrain =
-      analysis::ToJson(terrains::MeasureTerrain(ground, scenario.terrain));
+  const terrains::Terrain made = terrains::MakeTerrain(scenario.terrain, scenario.seed, 0);
+  const terrains::Heightfield& ground = made.ground;
+  if (options.on_warning) Warn(scenario, robot, made, options.on_warning);
+  nlohmann::json terrain = analysis::ToJson(terrains::MeasureTerrain(ground, scenario.terrain));
+  terrain["cut_nodes"] = made.cut_nodes;
 
   std::optional<FileSink> file;
   if (scenario.log.keep != KeepLog::kMetrics) {

@@ -22,6 +22,8 @@ struct RunOptions {
   std::filesystem::path folder;
   std::function<void(double time_s, int falls)> on_progress;
   std::function<void(double time_s, const std::string& kind, const std::string& detail)> on_event;
+  std::function<void(const std::string& warning)>
+      on_warning;  // before the walk: of robot and ground
   const std::atomic<bool>* interrupted = nullptr;
   std::filesystem::path save_qps;  // folder for the solved QPs; empty: none
 };

@@ -103,7 +103,7 @@ TEST(Campaign, SweepErrorsNameTheRule) {
   EXPECT_EQ(SweepError("  - {label: l, baseline: w, variants: [{name: v}]}"),
             "c.yaml:5:26: sweep[0].baseline: w: is none of the variants");
   EXPECT_EQ(SweepError("  - {label: l, variants: [{name: v, sed: 1}]}"),
-            "c.yaml:5:37: sweep[0].variants[0].sed: unknown key; known here: name, set");
+            "c.yaml:5:37: sweep[0].variants[0].sed: unknown key (did you mean \"set\"?)");
   EXPECT_EQ(SweepError("  - {key: duration_s, baseline: 20, values: [10, 20]}"), "no error");
 }
 
