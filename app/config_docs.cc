@@ -89,7 +89,7 @@ json Schema(const FieldInfo& f) {
   if (f.kind == "list") {
     schema = ListSchema(Schema(f.children.front()));
   } else if (f.kind.starts_with("list")) {
-    schema["type"] = "array";
+    schema = ListSchema({{"type", "number"}});
   }
   if (f.kind == "integer" || f.kind == "number") {
     if (std::isfinite(f.min)) schema["minimum"] = f.min;

@@ -83,15 +83,17 @@ std::optional<double> ParseNumber(std::string_view word) {
 
 class EsriReader {
  public:
-  EsriReader(const HeightmapParams& params, std::string_view text) : params_(params), in_(text) {}
+  EsriReader(const HeightmapParams& params, std::string_view text)
+      : params_(params), in_(text), text_bytes_(text.size()) {}
 
   HeightTable Read() {
     ReadHeader();
     HeightTable table = MakeTable();
     const auto total = table.Index(0, table.rows);
-    table.heights_m.reserve(total);
+    table.heights_m.reserve(std::min(total, text_bytes_ / 2 + 1));  // whatever the header promises
     for (; !in_.word().empty() && table.heights_m.size() < total; in_.Next()) AddCell(table);
     if (table.heights_m.size() < total || !in_.word().empty()) FailCount(table);
+    if (!table.cells.empty()) table.cells.resize(total);
     return table;
   }
 
@@ -173,7 +175,7 @@ class EsriReader {
                                    : std::isfinite(*value) ? HeightTable::Cell::kHeight
                                                            : HeightTable::Cell::kNotFinite;
     if (cell == HeightTable::Cell::kHeight) return;
-    if (table.cells.empty()) table.cells.resize(table.Index(0, table.rows));
+    table.cells.resize(index + 1);
     table.cells[index] = cell;
   }
 
@@ -221,6 +223,7 @@ class EsriReader {
 
   const HeightmapParams& params_;
   Words in_;
+  std::size_t text_bytes_;
   std::map<std::string, double> header_;
   int counted_line_ = 0, on_line_ = 0, odd_line_ = 0, on_odd_line_ = 0;
   bool has_whole_line_ = false;

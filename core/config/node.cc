@@ -37,55 +37,72 @@ void MergeUnder(ConfigNode& node, const ConfigNode& merged) {
   }
 }
 
-ConfigNode Convert(const YAML::Node& yaml, const std::string& file, const std::string& path,
-                   int depth = 0) {
-  constexpr int kDeepest = 50;
-  if (depth > kDeepest)
-    throw ConfigError(OriginOf(yaml.Mark(), file), path, "is nested too deeply or contains itself");
-  ConfigNode node;
-  node.origin = OriginOf(yaml.Mark(), file);
-  switch (yaml.Type()) {
-    case YAML::NodeType::Undefined:
-    case YAML::NodeType::Null:
-      break;
-    case YAML::NodeType::Scalar:
-      node.kind = ConfigNode::Kind::kScalar;
-      node.scalar = yaml.Scalar();
-      break;
-    case YAML::NodeType::Sequence:
-      node.kind = ConfigNode::Kind::kSequence;
-      for (std::size_t i = 0; i < yaml.size(); ++i) {
-        node.items.push_back(Convert(yaml[i], file, fmt::format("{}[{}]", path, i), depth + 1));
-      }
-      break;
-    case YAML::NodeType::Map: {
-      node.kind = ConfigNode::Kind::kMap;
-      std::vector<ConfigNode> merged;
-      for (const auto& pair : yaml) {
-        const std::string key = pair.first.Scalar();
-        const std::string key_path = path.empty() ? key : path + "." + key;
-        const Origin key_origin = OriginOf(pair.first.Mark(), file);
-        const auto first = std::find_if(node.entries.begin(), node.entries.end(),
-                                        [&](const auto& e) { return e.key == key; });
-        if (first != node.entries.end()) {
-          const int first_line = first->key_origin.line;
-          throw ConfigError(key_origin, key_path,
-                            fmt::format("given twice, first in line {}", first_line));
-        }
-        ConfigNode value = Convert(pair.second, file, key_path, depth + 1);
-        if (value.origin.line == 0) value.origin = key_origin;  // an empty value has no mark
-        if (key == "<<" && pair.first.Tag() == "?") {
-          merged.push_back(std::move(value));
-        } else {
-          node.entries.push_back({key, key_origin, std::move(value)});
-        }
-      }
-      for (const ConfigNode& under : merged) MergeUnder(node, under);
-      break;
+/// Turns a document of yaml-cpp into our tree.
+class YamlConverter {
+ public:
+  explicit YamlConverter(std::string file) : file_(std::move(file)) {}
+
+  ConfigNode Convert(const YAML::Node& yaml, const std::string& path, int depth = 0) {
+    ConfigNode node;
+    node.origin = OriginOf(yaml.Mark(), file_);
+    CheckExtent(node.origin, path, depth);
+    switch (yaml.Type()) {
+      case YAML::NodeType::Undefined:
+      case YAML::NodeType::Null:
+        break;
+      case YAML::NodeType::Scalar:
+        node.kind = ConfigNode::Kind::kScalar;
+        node.scalar = yaml.Scalar();
+        break;
+      case YAML::NodeType::Sequence:
+        node.kind = ConfigNode::Kind::kSequence;
+        for (std::size_t i = 0; i < yaml.size(); ++i)
+          node.items.push_back(Convert(yaml[i], fmt::format("{}[{}]", path, i), depth + 1));
+        break;
+      case YAML::NodeType::Map:
+        node.kind = ConfigNode::Kind::kMap;
+        ConvertMap(yaml, path, depth, node);
+        break;
     }
+    return node;
   }
-  return node;
-}
+
+ private:
+  void CheckExtent(const Origin& origin, const std::string& path, int depth) {
+    constexpr int kDeepest = 50, kMost = 1'000'000;
+    if (depth > kDeepest)
+      throw ConfigError(origin, path, "is nested too deeply or contains itself");
+    if (++count_ > kMost)
+      throw ConfigError(origin, path,
+                        fmt::format("has more than {} values, aliases included", kMost));
+  }
+
+  void ConvertMap(const YAML::Node& yaml, const std::string& path, int depth, ConfigNode& node) {
+    std::vector<ConfigNode> merged;
+    for (const auto& pair : yaml) {
+      const std::string key = pair.first.Scalar();
+      const std::string key_path = path.empty() ? key : path + "." + key;
+      const Origin key_origin = OriginOf(pair.first.Mark(), file_);
+      const auto first = std::find_if(node.entries.begin(), node.entries.end(),
+                                      [&](const auto& e) { return e.key == key; });
+      if (first != node.entries.end()) {
+        throw ConfigError(key_origin, key_path,
+                          fmt::format("given twice, first in line {}", first->key_origin.line));
+      }
+      ConfigNode value = Convert(pair.second, key_path, depth + 1);
+      if (value.origin.line == 0) value.origin = key_origin;  // an empty value has no mark
+      if (key == "<<" && pair.first.Tag() == "?") {
+        merged.push_back(std::move(value));
+      } else {
+        node.entries.push_back({key, key_origin, std::move(value)});
+      }
+    }
+    for (const ConfigNode& under : merged) MergeUnder(node, under);
+  }
+
+  std::string file_;
+  int count_ = 0;
+};
 
 ConfigNode ParseYaml(const std::string& text, const Origin& origin) {
   CheckUtf8(text, origin);
@@ -94,7 +111,7 @@ ConfigNode ParseYaml(const std::string& text, const Origin& origin) {
     const std::vector<YAML::Node> documents = YAML::LoadAll(text);
     if (documents.size() > 1)
       throw ConfigError({name, 0, 0}, "", "holds more than one YAML document");
-    return documents.empty() ? ConfigNode{} : Convert(documents.front(), name, "");
+    return documents.empty() ? ConfigNode{} : YamlConverter(name).Convert(documents.front(), "");
   } catch (const YAML::Exception& e) {
     throw ConfigError(OriginOf(e.mark, name), "", "not valid YAML: " + Shown(e.msg, 200));
   }

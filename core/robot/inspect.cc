@@ -104,22 +104,34 @@ void CheckConfig(const RobotDescription& robot, std::vector<std::string>& out) {
   }
 }
 
-void CheckVisuals(const RobotDescription& robot, std::vector<std::string>& out) {
-  for (const Shape& shape : robot.visuals) {
-    if (shape.kind == Shape::Kind::kMesh && !LoadMesh(shape.mesh, shape.size_m))
-      out.push_back(
-          fmt::format("visual mesh {} cannot be read and is not drawn", shape.mesh.string()));
-  }
-}
-
 double LegLength(const RobotDescription& robot) {
   const LegDescription& leg = robot.legs[Leg::kFL];
   return ThighLength(leg) + ShankLength(leg);
 }
 
+constexpr double kLargestShape = 4.0, kSmallestMesh = 0.01;  // of the leg length
+constexpr const char* kScaleHint =
+    "; a mesh in millimetres needs scale=\"0.001 0.001 0.001\", one in metres none";
+
+void CheckVisuals(const RobotDescription& robot, std::vector<std::string>& out) {
+  for (const Shape& shape : robot.visuals) {
+    if (shape.kind != Shape::Kind::kMesh) continue;
+    const auto bounds = CalcMeshBounds(shape.mesh, shape.size_m);
+    if (!bounds) {
+      out.push_back(
+          fmt::format("visual mesh {} cannot be read and is not drawn", shape.mesh.string()));
+      continue;
+    }
+    const double extent_m = (bounds->high - bounds->low).maxCoeff(), leg_m = LegLength(robot);
+    if (extent_m <= kLargestShape * leg_m) continue;
+    out.push_back(fmt::format("visual mesh {} is {:.4g} m wide, beside legs of {:.2f} m{}",
+                              shape.mesh.string(), extent_m, leg_m, kScaleHint));
+  }
+}
+
 /// Height, stance and falls are of the root link, as if it were the trunk.
 void CheckRoot(const RobotDescription& robot, std::vector<std::string>& out) {
-  constexpr double kFarthest = 0.3;  // of the leg length; trunks' origins lie at or near the hips
+  constexpr double kFarthest = 0.2;  // of the leg length; trunks' origins lie at or near the hips
   const Vec3 p = MiddleOfHips(robot);
   if (p.norm() <= kFarthest * LegLength(robot)) return;
   out.push_back(fmt::format(
@@ -140,17 +152,16 @@ Vec3 ExtentOf(const Shape& shape) {
 }
 
 void CheckShapeSizes(const RobotDescription& robot, std::vector<std::string>& out) {
-  constexpr double kLargest = 4.0, kSmallest = 0.01;  // of the leg length
   const double leg_m = LegLength(robot);
   for (const Shape& shape : robot.collisions) {
     const double extent_m = ExtentOf(shape).maxCoeff();
     const bool is_mesh = !shape.mesh.empty();
-    if (extent_m <= kLargest * leg_m && (!is_mesh || extent_m >= kSmallest * leg_m)) continue;
-    out.push_back(fmt::format(
-        "{}: collides as {} of {:.4g} m, beside legs of {:.2f} m{}", robot.body(shape.body).name,
-        is_mesh ? shape.mesh.filename().string() : "a shape", extent_m, leg_m,
-        is_mesh ? "; a mesh in millimetres needs scale=\"0.001 0.001 0.001\", one in metres none"
-                : ""));
+    if (extent_m <= kLargestShape * leg_m && (!is_mesh || extent_m >= kSmallestMesh * leg_m))
+      continue;
+    out.push_back(fmt::format("{}: collides as {} of {:.4g} m, beside legs of {:.2f} m{}",
+                              robot.body(shape.body).name,
+                              is_mesh ? shape.mesh.filename().string() : "a shape", extent_m, leg_m,
+                              is_mesh ? kScaleHint : ""));
   }
 }
 

@@ -219,6 +219,16 @@ TEST(Config, LongValuesAndKeysAreShortened) {
   }
 }
 
+TEST(Config, AliasesThatMultiplyAreRefused) {
+  std::string yaml = "a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n";
+  for (int i = 1; i < 10; ++i) {
+    yaml += fmt::format("a{0}: &a{0} [*a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}]\n", i,
+                        i - 1);
+  }
+  const std::string error = ErrorOf(yaml);
+  EXPECT_TRUE(error.ends_with(": has more than 1000000 values, aliases included")) << error;
+}
+
 TEST(Config, MergeKeysLayMapsUnderOthers) {
   const auto read = [](const std::string& yaml) {
     return ReadConfig<Sample>(ParseConfig(yaml, "a.yaml"));

@@ -170,6 +170,20 @@ TEST(Urdf, ShapesOutOfProportionAreWarnedOf) {
             "base_link: collides as m.obj of 0.0004" + hint);
 }
 
+TEST(Urdf, VisualMeshInMillimetresIsASuspicion) {
+  const test::TemporaryFolder folder;
+  WriteText(folder.path() / "mm.obj", "v 0 0 0\nv 400 0 0\nv 0 90 90\nf 1 2 3\n");
+  const std::string file = (folder.path() / "mm.obj").string();
+  EXPECT_EQ(
+      fmt::format("{}",
+                  fmt::join(FindSuspicions(Make({{"<box size=\"0.34 0.15 0.1\"/>",
+                                                  fmt::format("<mesh filename=\"{}\"/>", file)}})),
+                            "; ")),
+      fmt::format("visual mesh {} is 400 m wide, beside legs of 0.43 m; a mesh in millimetres "
+                  "needs scale=\"0.001 0.001 0.001\", one in metres none",
+                  file));
+}
+
 TEST(Urdf, CollisionMeshThatIsLostNamesTheWaysOut) {
   EXPECT_EQ(ErrorOf({{"<box size=\"0.3762 0.0935 0.114\"/>", "<mesh filename=\"/gone/a.stl\"/>"}}),
             "go2.urdf: base_link: collision mesh /gone/a.stl cannot be read; put it there, or let "
