@@ -9,7 +9,7 @@ namespace scoria::app {
 
 std::vector<std::string> WalkWarnings(const core::RobotDescription& robot,
                                       const controller::MpcParams& mpc, double gravity_mps2) {
-  std::vector<std::string> out = core::FindMisfits(robot);
+  std::vector<std::string> out = core::FindModelWarnings(robot);
   const double load_N = 0.5 * robot.total_mass_kg() * gravity_mps2;  // of a foot in a trot
   if (load_N > mpc.f_max_N) {
     out.push_back(

@@ -9,8 +9,8 @@
 
 namespace scoria::app {
 
-/// What may keep a robot from walking under these parameters: core::FindMisfits, and a weight that
-/// two feet may not carry. One sentence each.
+/// What may keep a robot from walking under these parameters: core::FindModelWarnings, and a weight
+/// that two feet may not carry. One sentence each.
 [[nodiscard]] std::vector<std::string> WalkWarnings(const core::RobotDescription& robot,
                                                     const controller::MpcParams& mpc,
                                                     double gravity_mps2);

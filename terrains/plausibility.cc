@@ -13,9 +13,15 @@ constexpr double kLowest_m = -11000.0, kHighest_m = 22000.0;
 // What raster tools write where nothing was measured; all of them whole numbers that a height in
 // metres hardly ever is to the last digit.
 constexpr std::array kUsualNoData = {-9999.0, -32768.0, -32767.0, 32767.0, -99999.0, 9999.0};
-constexpr double kNeedle = 20.0;   // height over width that no cell of one or two keeps in nature
-constexpr double kWall_m = 100.0;  // no vertical face between two cells is higher
-constexpr double kMeanStep = 5.0;  // mean step over cell: 79 degrees all over
+constexpr double kHighestStep_m = 50.0;  // between two cells; more in cells over 5 m
+constexpr double kSteep = 5.0;           // step over cell: 79 degrees
+
+/// What one or two cells may rise over all their neighbours: ten times their width while that is
+/// some metres, as of a boulder or a tree, and five times the width of a coarse cell.
+double HighestSpike(double cell_m) {
+  constexpr double kSlender = 10.0, kCoarse = 5.0, kTree_m = 10.0;
+  return std::min(kSlender * cell_m, std::max(kTree_m, kCoarse * cell_m));
+}
 
 class HeightCheck {
  public:
@@ -23,12 +29,13 @@ class HeightCheck {
       : params_(params),
         table_(table),
         window_(window),
-        cell_m_(std::max(table.dx_m, table.dy_m)) {}
+        spike_m_(HighestSpike(std::max(table.dx_m, table.dy_m))),
+        step_m_(std::max(kHighestStep_m, 10.0 * std::max(table.dx_m, table.dy_m))) {}
 
   void Run() const {
     ForCells([&](int column, int row) { CheckCell(column, row); });
+    CheckUnits();
     ForCells([&](int column, int row) { CheckNeighbours(column, row); });
-    CheckMeanStep();
   }
 
  private:
@@ -66,19 +73,17 @@ class HeightCheck {
     }
   }
 
-  /// No wall to the neighbours east and south, and at least two of the eight neighbours near.
+  /// No step beyond the limit to the neighbours east and south, and at least two of the eight
+  /// neighbours near.
   void CheckNeighbours(int column, int row) const {
     const double height_m = table_.at(column, row);
-    const double needle_m = kNeedle * cell_m_, wall_m = std::max(kWall_m, needle_m);
     int near = 0;
-    double nearest_m = std::numeric_limits<double>::infinity();
     for (int dr = -1; dr <= 1; ++dr) {
       for (int dc = -1; dc <= 1; ++dc) {
         if ((dr == 0 && dc == 0) || !Contains(column + dc, row + dr)) continue;
         const double step_m = std::abs(table_.at(column + dc, row + dr) - height_m);
-        near += step_m <= needle_m ? 1 : 0;
-        nearest_m = std::min(nearest_m, step_m);
-        if (dr + dc == 1 && dr * dc == 0 && step_m > wall_m) {
+        near += step_m <= spike_m_ ? 1 : 0;
+        if (dr + dc == 1 && dr * dc == 0 && step_m > step_m_) {
           Fail(column, row,
                fmt::format("is {} m, its neighbour {}: {:g} m in one cell; fill gaps first",
                            height_m, table_.at(column + dc, row + dr), step_m));
@@ -87,26 +92,25 @@ class HeightCheck {
     }
     if (near >= 2) return;
     Fail(column, row,
-         fmt::format("is {} m, {:g} m or more from all but {} of its neighbours: a spike or a pit; "
+         fmt::format("is {} m, over {:g} m from all but {} of its neighbours: a spike or a pit; "
                      "remove it first",
-                     height_m, needle_m, near));
+                     height_m, spike_m_, near));
   }
 
   /// Metres up, but degrees or kilometres across; or millimetres up.
-  void CheckMeanStep() const {
-    double sum_m = 0.0;
-    std::size_t steps = 0;
+  void CheckUnits() const {
+    std::size_t steps = 0, steep = 0;
     ForCells([&](int column, int row) {
       if (!Contains(column + 1, row)) return;
-      sum_m += std::abs(table_.at(column + 1, row) - table_.at(column, row));
       ++steps;
+      const double step_m = std::abs(table_.at(column + 1, row) - table_.at(column, row));
+      if (step_m > kSteep * table_.dx_m) ++steep;
     });
-    const double mean = sum_m / static_cast<double>(steps) / table_.dx_m;
-    if (mean <= kMeanStep) return;
+    if (2 * steep <= steps) return;
     FailHeightmap(params_, 0,
-                  fmt::format("neighbours differ by {:.3g} times their distance in the mean; are "
+                  fmt::format("most neighbours differ by more than {} times their distance; are "
                               "cells and heights both in metres?",
-                              mean));
+                              kSteep));
   }
 
   [[nodiscard]] bool Contains(int column, int row) const {
@@ -118,7 +122,7 @@ class HeightCheck {
   const HeightmapParams& params_;
   const HeightTable& table_;
   const TileWindow& window_;
-  double cell_m_;
+  double spike_m_, step_m_;  // what is refused is higher
 };
 
 }  // namespace

@@ -187,7 +187,7 @@ void CheckDynamics(const RobotDescription& robot, std::vector<std::string>& out)
 
 }  // namespace
 
-std::vector<std::string> FindMisfits(const RobotDescription& robot) {
+std::vector<std::string> FindModelWarnings(const RobotDescription& robot) {
   std::vector<std::string> out;
   if (!robot.held_joints.empty()) {
     out.push_back(fmt::format("{}: in no leg, held at zero", fmt::join(robot.held_joints, ", ")));

@@ -16,6 +16,6 @@ namespace scoria::core {
 /// What changes how a robot walks, or whether it does: a trunk that is not the root link, shapes
 /// out of proportion to the legs, joints that are held, <dynamics> that are not used. One sentence
 /// each, none of FindSuspicions.
-[[nodiscard]] std::vector<std::string> FindMisfits(const RobotDescription& robot);
+[[nodiscard]] std::vector<std::string> FindModelWarnings(const RobotDescription& robot);
 
 }  // namespace scoria::core

@@ -45,8 +45,8 @@ std::string TextError(const std::string& urdf) {
 
 std::string ErrorOf(const Replacements& replacements) { return TextError(Go2With(replacements)); }
 
-std::string Misfits(const RobotDescription& robot) {
-  return fmt::format("{}", fmt::join(FindMisfits(robot), "; "));
+std::string ModelWarnings(const RobotDescription& robot) {
+  return fmt::format("{}", fmt::join(FindModelWarnings(robot), "; "));
 }
 
 TEST(Urdf, FilesOfAnotherKindAreNamed) {
@@ -82,17 +82,17 @@ TEST(Urdf, JointsThatPlaceTheRobotInTheWorldAreLeftOut) {
     const RobotDescription robot = Make({{kTrunk, Above("world", "base_link", type) + kTrunk}});
     EXPECT_EQ(robot.trunk.name, "base_link") << type;
     EXPECT_EQ(robot.trunk.p_LC, test::Go2().trunk.p_LC) << type;
-    EXPECT_EQ(Misfits(robot), "") << type;
+    EXPECT_EQ(ModelWarnings(robot), "") << type;
   }
   const RobotDescription chain =
       Make({{kTrunk, Above("world", "rail", "fixed") + Above("rail", "slide", "prismatic") +
                          Above("slide", "base_link", "floating") + kTrunk}});
   EXPECT_EQ(chain.trunk.name, "base_link");
-  EXPECT_EQ(Misfits(chain), "");
+  EXPECT_EQ(ModelWarnings(chain), "");
 }
 
 TEST(Urdf, RootAwayFromTheTrunkIsWarnedOf) {
-  EXPECT_EQ(Misfits(Make({{kTrunk, Above("base_footprint", "base_link", "fixed") + kTrunk}})),
+  EXPECT_EQ(ModelWarnings(Make({{kTrunk, Above("base_footprint", "base_link", "fixed") + kTrunk}})),
             "base_footprint: the root link is taken for the trunk, but the middle of the hips lies "
             "at (0.000 0.000 0.500) m of it; make the trunk the root link");
   const std::string head =
@@ -118,7 +118,7 @@ TEST(Urdf, JointsOutsideOfTheLegsAreHeldAtZero) {
                                      {"prismatic", limit}}) {
     const RobotDescription robot = Make(ImuJoint(type, limits));
     EXPECT_EQ(robot.p_BS, test::Go2().p_BS) << type;
-    EXPECT_EQ(Misfits(robot), "imu_joint: in no leg, held at zero") << type;
+    EXPECT_EQ(ModelWarnings(robot), "imu_joint: in no leg, held at zero") << type;
   }
   EXPECT_EQ(ErrorOf(ImuJoint("revolute",
                              "<limit lower=\"0.5\" upper=\"1\" effort=\"1\" velocity=\"1\"/>")),
@@ -141,24 +141,25 @@ TEST(Urdf, DynamicsAreMentionedUnlessTheYamlHasThem) {
     urdf.replace(at, end.size(), add);
   RobotConfig config = Go2Config();
   EXPECT_EQ(
-      Misfits(MakeRobot(config, urdf)),
+      ModelWarnings(MakeRobot(config, urdf)),
       "<dynamics> of the URDF is not used, motors of the robot's YAML are; as the URDF has it: "
       "damping_Nms_per_rad: [5, 5, 5], friction_Nm: [3, 3, 3]");
   config.motors.damping_Nms_per_rad = Vec3::Constant(5.0);
   config.motors.friction_Nm = Vec3::Constant(3.0);
-  EXPECT_EQ(Misfits(MakeRobot(config, urdf)), "");
+  EXPECT_EQ(ModelWarnings(MakeRobot(config, urdf)), "");
 }
 
 TEST(Urdf, ShapesOutOfProportionAreWarnedOf) {
-  EXPECT_EQ(Misfits(Make({{"box size=\"0.3762 0.0935 0.114\"", "box size=\"3.762 0.935 1.14\""}})),
-            "base_link: collides as a shape of 3.762 m, beside legs of 0.43 m");
+  EXPECT_EQ(
+      ModelWarnings(Make({{"box size=\"0.3762 0.0935 0.114\"", "box size=\"3.762 0.935 1.14\""}})),
+      "base_link: collides as a shape of 3.762 m, beside legs of 0.43 m");
   const test::TemporaryFolder folder;
   const std::string box = "<box size=\"0.3762 0.0935 0.114\"/>";
   const auto mesh = [&](const std::string& name, double size, const std::string& scale) {
     WriteText(folder.path() / name,
               fmt::format("v 0 0 0\nv {0} 0 0\nv 0 {0} {0}\nf 1 2 3\n", size));
     const std::string file = (folder.path() / name).string();
-    return Misfits(Make({{box, fmt::format("<mesh filename=\"{}\" {}/>", file, scale)}}));
+    return ModelWarnings(Make({{box, fmt::format("<mesh filename=\"{}\" {}/>", file, scale)}}));
   };
   const std::string hint =
       " m, beside legs of 0.43 m; a mesh in millimetres needs scale=\"0.001 0.001 0.001\", one in "

@@ -197,14 +197,16 @@ std::string LevelBut(const std::map<std::pair<int, int>, double>& others) {
 
 TEST_F(Heightmap, SpikesPitsAndUndeclaredVoidsAreRefused) {
   EXPECT_EQ(ErrorOf(Write("spike.asc", LevelBut({{{5, 6}, 315.0}}))),
-            "spike.asc:10:1: heightmap: row 7, value 6 is 315 m, 10 m or more from all but 0 of "
+            "spike.asc:10:1: heightmap: row 7, value 6 is 315 m, over 5 m from all but 0 of "
             "its neighbours: a spike or a pit; remove it first");
   EXPECT_EQ(ErrorOf(Write("pit.asc", LevelBut({{{0, 0}, 280.0}}))),
-            "pit.asc:4:1: heightmap: row 1, value 1 is 280 m, 10 m or more from all but 0 of its "
+            "pit.asc:4:1: heightmap: row 1, value 1 is 280 m, over 5 m from all but 0 of its "
             "neighbours: a spike or a pit; remove it first");
   EXPECT_EQ(ErrorOf(Write("pair.asc", LevelBut({{{5, 6}, 315.0}, {{5, 7}, 315.0}}))),
-            "pair.asc:10:1: heightmap: row 7, value 6 is 315 m, 10 m or more from all but 1 of "
+            "pair.asc:10:1: heightmap: row 7, value 6 is 315 m, over 5 m from all but 1 of "
             "its neighbours: a spike or a pit; remove it first");
+  EXPECT_EQ(ErrorOf(Write("low.asc", LevelBut({{{5, 6}, 304.0}}))),
+            "no error");  // a low one is a rock
   std::map<std::pair<int, int>, double> corner;
   for (int r = 0; r < 5; ++r) {
     for (int c = 0; c < 5; ++c) corner[{c, r}] = 0.0;
@@ -227,11 +229,30 @@ TEST_F(Heightmap, CliffsAndBlocksAreGround) {
   EXPECT_EQ(ErrorOf(Write("block.asc", LevelBut(block))), "no error");
 }
 
+TEST_F(Heightmap, SpikesOfCoarseCellsAreHigher) {
+  const auto error = [&](double cell_m, double height_m) {
+    std::string text = LevelBut({{{5, 6}, 300.0 + height_m}});
+    text.replace(text.find("0.5"), 3, fmt::format("{}", cell_m));
+    return ErrorOf(Write("spike.asc", text));
+  };
+  for (const auto& [cell_m, limit_m] :
+       {std::pair{0.4, 4.0}, {1.0, 10.0}, {2.0, 10.0}, {30.0, 150.0}}) {
+    EXPECT_EQ(error(cell_m, limit_m - 1.0), "no error") << cell_m;
+    EXPECT_NE(error(cell_m, limit_m + 1.0).find("a spike or a pit"), std::string::npos) << cell_m;
+    EXPECT_NE(error(cell_m, -limit_m - 1.0).find("a spike or a pit"), std::string::npos) << cell_m;
+  }
+}
+
 TEST_F(Heightmap, HeightsInOtherUnitsThanCellsAreRefused) {
-  std::string text = "ncols 20\nnrows 20\ncellsize 0.5\n";
-  for (int i = 0; i < 400; ++i) text += fmt::format("{} ", 5 * (i % 2 == 0 ? 1 : -1) + i % 20);
-  EXPECT_EQ(ErrorOf(Write("mm.asc", text)).substr(0, 40),
-            "mm.asc: heightmap: neighbours differ by ");
+  const auto slope = [&](double step) {
+    std::string text = "ncols 20\nnrows 20\ncellsize 0.5\n";
+    for (int i = 0; i < 400; ++i) text += fmt::format("{} ", step * (i % 20));
+    return ErrorOf(Write("mm.asc", text));
+  };
+  EXPECT_EQ(slope(2.4), "no error");
+  EXPECT_EQ(slope(2.6),
+            "mm.asc: heightmap: most neighbours differ by more than 5 times their distance; are "
+            "cells and heights both in metres?");
 }
 
 TEST_F(Heightmap, SlopesThatAreCutAreCounted) {
