@@ -134,11 +134,9 @@ std::vector<std::string> HeightmapRemarks(const Terrain& terrain, const TerrainP
   std::vector<std::string> out;
   if (terrain.remark) out.push_back(*terrain.remark);
   if (!params.heightmap.file.empty() && terrain.cut_nodes > 0) {
-    const double nodes = static_cast<double>(terrain.ground.heights_m().size());
-    out.push_back(
-        fmt::format("{} nodes ({:.2g} %) of the heightmap are steeper than max_slope_rad "
-                    "{} and were lowered to it",
-                    terrain.cut_nodes, 100.0 * terrain.cut_nodes / nodes, params.max_slope_rad));
+    out.push_back(fmt::format(
+        "{} of {} nodes of the heightmap, steeper than max_slope_rad {}, are lowered to it",
+        terrain.cut_nodes, terrain.ground.heights_m().size(), params.max_slope_rad));
   }
   return out;
 }

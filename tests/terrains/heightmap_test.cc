@@ -264,8 +264,8 @@ TEST_F(Heightmap, SlopesThatAreCutAreCounted) {
   EXPECT_EQ(cut.cut_nodes, 1u);
   ASSERT_EQ(HeightmapRemarks(cut, params).size(), 1u);
   EXPECT_EQ(HeightmapRemarks(cut, params).front(),
-            "1 nodes (0.25 %) of the heightmap are steeper than max_slope_rad 0.785398163397 and "
-            "were lowered to it");
+            "1 of 400 nodes of the heightmap, steeper than max_slope_rad 0.785398163397, are "
+            "lowered to it");
   params.max_slope_rad = 1.5;
   const Terrain whole = MakeTerrain(params, 1, 0);
   EXPECT_EQ(whole.cut_nodes, 0u);
