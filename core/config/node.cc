@@ -184,7 +184,7 @@ bool NeedsQuotes(const std::string& s) {
          s.back() == ' ' || s.back() == ':';
 }
 
-constexpr std::size_t kLongestRule = 2000;  // "known here" lists every key
+constexpr std::size_t kLongestRule = 500;  // "known here" lists up to 350 bytes of keys
 
 std::string OpenUnlessEmpty(std::string_view part) {
   return part.empty() ? "" : fmt::format("{}: ", part);

@@ -87,8 +87,9 @@ class TreeWalker {
   /// them), whose links carry nothing.
   [[nodiscard]] urdf::LinkConstSharedPtr TrunkRoot() const {
     urdf::LinkConstSharedPtr root = model_.getRoot(), at = root;
-    while (!at->inertial && at->collision_array.empty() && at->visual_array.empty() &&
-           at->child_joints.size() == 1 && !joint_index_.contains(at->child_joints[0]->name)) {
+    while ((!at->inertial || at->inertial->mass == 0.0) && at->collision_array.empty() &&
+           at->visual_array.empty() && at->child_joints.size() == 1 &&
+           !joint_index_.contains(at->child_joints[0]->name)) {
       const urdf::Joint& joint = *at->child_joints[0];
       at = model_.getLink(joint.child_link_name);
       if (joint.type != urdf::Joint::FIXED) root = at;

@@ -57,6 +57,22 @@ TEST(Urdf, FilesOfAnotherKindAreNamed) {
   EXPECT_EQ(TextError("\x89PNG\r\n\x1a\n"),
             "go2.urdf: urdf: is a PNG image, not a URDF (a terrain names it: heightmap: {file: "
             "NAME.png})");
+  RobotConfig config = Go2Config();
+  config.urdf = test::SourcePath("robots");
+  try {
+    (void)ReadRobot(config);
+    FAIL();
+  } catch (const ConfigError& e) {
+    EXPECT_EQ(e.what(), config.urdf.string() + ": urdf: is a folder, not a URDF");
+  }
+  config = Go2Config();
+  config.legs.fl.foot = std::string(100000, 'x');
+  try {
+    (void)MakeRobot(config, test::Go2().urdf_text);
+    FAIL();
+  } catch (const ConfigError& e) {
+    EXPECT_LT(std::string(e.what()).size(), 600u);
+  }
   EXPECT_LT(TextError("name: go2\n" + std::string(100000, 'x')).size(), 400u);
 }
 
