@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "analysis/json_text.h"
 #include "app/scenario.h"
 
 namespace scoria::app {
@@ -102,7 +103,7 @@ std::string ConfigJsonSchema() {
   json schema = ObjectSchema(core::DescribeConfig<Scenario>().children);
   schema["$schema"] = "https://json-schema.org/draft/2020-12/schema";
   schema["title"] = "scoria scenario";
-  return schema.dump(2) + "\n";
+  return analysis::JsonText(schema);
 }
 
 }  // namespace scoria::app

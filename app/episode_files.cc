@@ -2,12 +2,14 @@
 #include "app/episode_files.h"
 
 #include <algorithm>
-#include <fstream>
+#include <cmath>
 #include <optional>
 
 #include <nlohmann/json.hpp>
 
+#include "analysis/json_text.h"
 #include "analysis/terrain_view.h"
+#include "app/inputs.h"
 #include "app/qp_recorder.h"
 #include "app/version.h"
 #include "core/files.h"
@@ -28,14 +30,42 @@ nlohmann::json CountersToJson(const Counters& counters) {
   return json;
 }
 
-namespace fs = std::filesystem;
+/// Sums up the way that the operator commands.
+class CommandedWay {
+ public:
+  void Add(const core::LogRow& row) {
+    way_m_ += std::hypot(row.cmd_v_x_mps, row.cmd_v_y_mps) * (row.time_s - last_s_);
+    last_s_ = row.time_s;
+  }
+  [[nodiscard]] double way_m() const { return way_m_; }
+
+ private:
+  double way_m_ = 0.0, last_s_ = 0.0;
+};
+
+std::string DescribeFailure(const EpisodeResult& result, double commanded_m) {
+  constexpr double kCommanded_m = 0.5, kWalked_m = 0.1;
+  if (result.end == EpisodeEnd::kNonFinite)
+    return fmt::format("the state is not finite after {:.3f} s", result.duration_s);
+  if (commanded_m > kCommanded_m && !(result.walked_m >= kWalked_m))
+    return fmt::format("walked {:.2f} m where {:.2f} m were commanded", result.walked_m,
+                       commanded_m);
+  return "";
+}
+
+/// What an older run left must not stand beside the new one.
+void RemoveOldRun(const std::filesystem::path& folder) {
+  for (const char* name : {"result.json", "log.mcap", "report"})
+    std::filesystem::remove_all(folder / name);
+}
 
 }  // namespace
 
 EpisodeReport RunToFolder(const Scenario& scenario, const RunOptions& options) {
+  const InputHashes inputs = InputHasher().Hash(scenario);  // before the files are read
   const core::RobotDescription robot = core::LoadRobot(scenario.robot);
-  fs::create_directories(options.folder);
-  fs::remove(options.folder / "result.json");  // an old result must not stand beside a new scenario
+  core::CreateFolders(options.folder);
+  RemoveOldRun(options.folder);
   core::WriteText(options.folder / "scenario.yaml", EffectiveYaml(scenario));
   const terrains::Heightfield ground =
       terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);
@@ -44,16 +74,19 @@ EpisodeReport RunToFolder(const Scenario& scenario, const RunOptions& options) {
 
   std::optional<FileSink> file;
   if (scenario.log.keep != KeepLog::kMetrics) {
-    file.emplace(options.folder / "log.mcap", scenario, robot.urdf_text,
-                 core::McapMetadata{{"version", kVersion}, {"terrain", terrain.dump()}});
+    file.emplace(
+        options.folder / "log.mcap", scenario, robot,
+        core::McapMetadata{{"version", kVersion}, {"terrain", analysis::JsonText(terrain)}});
   }
   analysis::MetricsAccumulator accumulator(scenario.gravity_mps2);
+  CommandedWay commanded;
   int falls = 0;
   EpisodeSinks sinks;
   sinks.messages = file ? &*file : nullptr;
   sinks.interrupted = options.interrupted;
   sinks.on_row = [&](const core::LogRow& row, const core::SolveTimes& times) {
     accumulator.AddRow(row, times);
+    commanded.Add(row);
   };
   sinks.on_event = [&](double time_s, const std::string& kind, const std::string& detail) {
     if (kind == "fall") {
@@ -80,6 +113,8 @@ EpisodeReport RunToFolder(const Scenario& scenario, const RunOptions& options) {
   report.metrics = accumulator.Finish();
   if (file) file->Close();
   const EpisodeResult& r = report.result;
+  report.commanded_m = commanded.way_m();
+  report.failure = DescribeFailure(r, report.commanded_m);
   const double wall_s = r.times.sum(),
                simulated_s = std::max(r.duration_s, scenario.physics.step_s);
   report.real_time_factor = wall_s > 0.0 ? simulated_s / wall_s : 0.0;
@@ -88,10 +123,13 @@ EpisodeReport RunToFolder(const Scenario& scenario, const RunOptions& options) {
       {"scenario", scenario.name},
       {"seed", scenario.seed},
       {"version", kVersion},
+      {"inputs", inputs},
       {"end", core::EnumName(r.end)},
       {"falls", r.falls},
       {"stuck", r.stuck},
       {"walked_m", r.walked_m},
+      {"commanded_m", report.commanded_m},
+      {"message", report.failure},
       {"state_hash", fmt::format("{:016x}", r.state_hash)},
       {"counters", CountersToJson(r.counters)},
       {"unconverged_physics_steps", r.unconverged_steps},
@@ -99,9 +137,7 @@ EpisodeReport RunToFolder(const Scenario& scenario, const RunOptions& options) {
       {"us_per_step", TimesToJson(r.times, scenario.physics.step_s / simulated_s * 1e6)},
       {"terrain", terrain},
       {"metrics", report.metrics}};
-  core::WriteText(options.folder / "result.json.part", json.dump(2) + "\n");
-  fs::rename(options.folder / "result.json.part",
-             options.folder / "result.json");  // whole or not at all
+  core::WriteText(options.folder / "result.json", analysis::JsonText(json));
   return report;
 }
 

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "analysis/json_text.h"
 #include "analysis/terrain_view.h"
 #include "controller/stand_up.h"
 #include "core/files.h"
@@ -144,12 +145,12 @@ void AddTerrain(CLI::App& app) {
     const terrains::TerrainParams params = LoadTerrain(o->name, o->set);
     const terrains::Heightfield ground = terrains::GenerateTerrain(params, o->seed, 0);
     const terrains::TerrainStatistics statistics = terrains::MeasureTerrain(ground, params);
-    const std::filesystem::path folder = o->out.empty()
-                                             ? std::filesystem::path("out/terrain") / params.name
-                                             : std::filesystem::path(o->out);
+    const std::filesystem::path folder =
+        o->out.empty() ? std::filesystem::path("out/terrain") / core::FileNameOf(params.name)
+                       : std::filesystem::path(o->out);
     if (!o->no_pictures) analysis::WriteTerrainView(ground, params, statistics, folder);
     if (o->json) {
-      fmt::print("{}\n", analysis::TerrainJson(ground, params, statistics).dump(2));
+      fmt::print("{}", analysis::JsonText(analysis::TerrainJson(ground, params, statistics)));
       return;
     }
     const double edge_m = ground.nodes() * ground.resolution_m();

@@ -7,6 +7,7 @@
 
 #include "app/campaign.h"
 #include "app/episode_files.h"
+#include "app/log_origin.h"
 #include "app/verify.h"
 #include "core/log/messages.h"
 #include "terrains/generator.h"
