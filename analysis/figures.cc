@@ -179,7 +179,7 @@ CaptionedFigure TrackingFigure(const CampaignResults& results) {
   figure.Data("t", rows);
   std::string ticks;
   for (std::size_t a = 0; a < results.arms.size(); ++a)
-    ticks += fmt::format("{}'{}' {}", a > 0 ? ", " : "", EscapeTick(results.arms[a]), a);
+    ticks += fmt::format("{}'{}' {}", a > 0 ? ", " : "", Escape(results.arms[a]), a);
   figure.Line(
       "set multiplot layout 1,4 title 'RMS tracking errors over steady walking'; set style fill "
       "solid 0.8; set boxwidth 0.7; unset key");
@@ -205,7 +205,7 @@ CaptionedFigure SolveTimeFigure(const CampaignResults& results) {
     const Cell cell = PoolCell(results, results.arms[a], {});
     rows.push_back({static_cast<double>(a), cell.mpc_median_s * 1e6, cell.mpc_p99_s * 1e6,
                     cell.wbc_median_s * 1e6, cell.wbc_p99_s * 1e6});
-    ticks += fmt::format("{}'{}' {}", a > 0 ? ", " : "", EscapeTick(results.arms[a]), a);
+    ticks += fmt::format("{}'{}' {}", a > 0 ? ", " : "", Escape(results.arms[a]), a);
   }
   figure.Data("s", rows);
   figure.Line(

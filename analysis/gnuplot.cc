@@ -96,22 +96,17 @@ void Figure::Render(const fs::path& folder) const {
 
 std::string Escape(const std::string& text) {
   constexpr std::size_t kLongest = 60;  // characters
-  constexpr std::string_view kEnhanced = "_^@&~{}\\";
+  // What enhanced mode, a string in single quotes, or the number format that a tick's label is
+  // would take for its own; gnuplot reads it by its octal code.
+  constexpr std::string_view kSpecial = "_^@&~{}\\'%";
   std::string out;
   std::size_t characters = 0;
   for (const char c : core::PrintableText(text)) {
     const bool starts = (static_cast<unsigned char>(c) & 0xc0) != 0x80;  // a character of UTF-8
     if (starts && ++characters > kLongest) return out + "…";
-    if (kEnhanced.find(c) != std::string_view::npos) out += '\\';
-    if (c == '\'') out += '\'';
-    out += c;
+    out +=
+        kSpecial.find(c) == std::string_view::npos ? std::string(1, c) : fmt::format("\\{:03o}", c);
   }
-  return out;
-}
-
-std::string EscapeTick(const std::string& text) {
-  std::string out;
-  for (const char c : Escape(text)) out += c == '%' ? std::string("%%") : std::string(1, c);
   return out;
 }
 

@@ -32,12 +32,9 @@ class Figure {
   int width_px_, height_px_;
 };
 
-/// Any text for a gnuplot string in single quotes, whose enhanced mode shows it as it stands; what
-/// is too long for a figure is cut.
+/// Any text for a gnuplot string in single quotes, a title or the label of a tick, which enhanced
+/// mode shows as it stands; what is too long for a figure is cut.
 [[nodiscard]] std::string Escape(const std::string& text);
-
-/// The same for the label of a tick, which gnuplot takes for a number format.
-[[nodiscard]] std::string EscapeTick(const std::string& text);
 
 /// Colours of arms, safe for the common colour-vision deficiencies ([Okabe2008]).
 [[nodiscard]] std::string ArmColour(std::size_t index);

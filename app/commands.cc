@@ -2,6 +2,7 @@
 #include "app/commands.h"
 
 #include <atomic>
+#include <charconv>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -198,6 +199,20 @@ void AddReport(CLI::App& app) {
   report->callback([folder] { fmt::print("{}\n", analysis::WriteReport(*folder).string()); });
 }
 
+/// @returns what is wrong with the width or height of a video; empty if nothing.
+std::string CheckFrameEdge(const std::string& text) {
+  int edge_px = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), edge_px);
+  if (error != std::errc{} || stop != text.data() + text.size())
+    return fmt::format("\"{}\" is not a number of pixels", text);
+  const bool fits = edge_px >= analysis::kSmallestFrame_px && edge_px <= analysis::kLargestFrame_px;
+  return fits ? ""
+              : fmt::format(
+                    "{} is outside [{}, {}] px: smaller frames hold no text, larger ones "
+                    "no player shows",
+                    edge_px, analysis::kSmallestFrame_px, analysis::kLargestFrame_px);
+}
+
 void AddRender(CLI::App& app) {
   struct Options {
     std::string log, out, frames;
@@ -215,7 +230,7 @@ void AddRender(CLI::App& app) {
   render->add_option("--size", o->size, "width and height [px], as 960 540 or 960x540")
       ->expected(2)
       ->delimiter('x')
-      ->check(CLI::Range(analysis::kSmallestFrame_px, analysis::kLargestFrame_px));
+      ->check(CLI::Validator(CheckFrameEdge, ""));
   render->add_option("--fps", o->fps, "frames per second")->check(CLI::Range(1, 240));
   render->callback([o] {
     analysis::VideoOptions options;

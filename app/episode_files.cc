@@ -30,18 +30,23 @@ nlohmann::json CountersToJson(const Counters& counters) {
   return json;
 }
 
-/// Sums up the way that the operator commands.
-class CommandedWay {
- public:
-  void Add(const core::LogRow& row) {
-    way_m_ += std::hypot(row.cmd_v_x_mps, row.cmd_v_y_mps) * (row.time_s - last_s_);
-    last_s_ = row.time_s;
+/// The way that the operator commands in the time that a robot has once it stands. One that never
+/// stands was commanded it all the same.
+double CommandedWay(const OperatorParams& operation, double duration_s) {
+  constexpr double kStandUp_s = 3.0;
+  const double walking_s = std::max(0.0, duration_s - kStandUp_s);
+  if (const auto* route = std::get_if<RouteParams>(&operation))
+    return std::min(route->distance_m, route->speed_mps * walking_s);
+  const std::vector<VelocityStep>& steps = std::get<VelocityProgramme>(operation).steps;
+  double way_m = 0.0;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const double until_s =
+        i + 1 < steps.size() ? std::min(steps[i + 1].at_s, walking_s) : walking_s;
+    way_m +=
+        std::hypot(steps[i].v_x_mps, steps[i].v_y_mps) * std::max(0.0, until_s - steps[i].at_s);
   }
-  [[nodiscard]] double way_m() const { return way_m_; }
-
- private:
-  double way_m_ = 0.0, last_s_ = 0.0;
-};
+  return way_m;
+}
 
 std::string DescribeFailure(const EpisodeResult& result, double commanded_m) {
   constexpr double kCommanded_m = 0.5, kWalked_m = 0.1;
@@ -79,14 +84,12 @@ EpisodeReport RunToFolder(const Scenario& scenario, const RunOptions& options) {
         core::McapMetadata{{"version", kVersion}, {"terrain", analysis::JsonText(terrain)}});
   }
   analysis::MetricsAccumulator accumulator(scenario.gravity_mps2);
-  CommandedWay commanded;
   int falls = 0;
   EpisodeSinks sinks;
   sinks.messages = file ? &*file : nullptr;
   sinks.interrupted = options.interrupted;
   sinks.on_row = [&](const core::LogRow& row, const core::SolveTimes& times) {
     accumulator.AddRow(row, times);
-    commanded.Add(row);
   };
   sinks.on_event = [&](double time_s, const std::string& kind, const std::string& detail) {
     if (kind == "fall") {
@@ -113,7 +116,7 @@ EpisodeReport RunToFolder(const Scenario& scenario, const RunOptions& options) {
   report.metrics = accumulator.Finish();
   if (file) file->Close();
   const EpisodeResult& r = report.result;
-  report.commanded_m = commanded.way_m();
+  report.commanded_m = CommandedWay(scenario.operation, r.duration_s);
   report.failure = DescribeFailure(r, report.commanded_m);
   const double wall_s = r.times.sum(),
                simulated_s = std::max(r.duration_s, scenario.physics.step_s);

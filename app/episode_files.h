@@ -17,7 +17,7 @@ struct EpisodeReport {
   EpisodeResult result;
   analysis::EpisodeMetrics metrics;
   double real_time_factor = 0.0;  // simulated time over wall time, without set-up
-  double commanded_m = 0.0;       // integral of the commanded horizontal speed
+  double commanded_m = 0.0;       // horizontal way, three seconds for standing up left out
   std::string failure;            // why this was no walk, in words; empty if it was one
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <system_error>
@@ -35,6 +36,7 @@ int main(int argc, char** argv) {
       "3 "
       "interrupted or unfinished, 4 a file or the disk refused.");
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is an error of the write, not the end
+  setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);  // quiet: what fails is told in our own words
   int exit_code = 0;
   scoria::app::AddCommands(app, exit_code);
   try {
