@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "analysis/json_text.h"
 #include "app/campaign_file.h"
 #include "app/config_kinds.h"
 #include "app/scenario.h"
@@ -131,7 +132,7 @@ std::string ConfigJsonSchema(std::string_view kind) {
     schema["$defs"]["scenario"] = ObjectSchema(core::DescribeConfig<Scenario>().children);
   schema["$schema"] = "https://json-schema.org/draft/2020-12/schema";
   schema["title"] = fmt::format("scoria {}", kind);
-  return schema.dump(2) + "\n";
+  return analysis::JsonText(schema);
 }
 
 }  // namespace scoria::app

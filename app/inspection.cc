@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "analysis/json_text.h"
 #include "analysis/terrain_view.h"
 #include "app/config_kinds.h"
 #include "app/robot_warnings.h"
@@ -153,14 +154,14 @@ void AddTerrain(CLI::App& app) {
     const terrains::Terrain made = terrains::MakeTerrain(params, o->seed, 0);
     const terrains::Heightfield& ground = made.ground;
     const terrains::TerrainStatistics statistics = terrains::MeasureTerrain(ground, params);
-    const std::filesystem::path folder = o->out.empty()
-                                             ? std::filesystem::path("out/terrain") / params.name
-                                             : std::filesystem::path(o->out);
+    const std::filesystem::path folder =
+        o->out.empty() ? std::filesystem::path("out/terrain") / core::FileNameOf(params.name)
+                       : std::filesystem::path(o->out);
     if (!o->no_pictures) analysis::WriteTerrainView(ground, params, statistics, folder);
     if (o->json) {
       nlohmann::json json = analysis::TerrainJson(ground, params, statistics);
       json["cut_nodes"] = made.cut_nodes;
-      fmt::print("{}\n", json.dump(2));
+      fmt::print("{}", analysis::JsonText(json));
       return;
     }
     const double edge_m = ground.nodes() * ground.resolution_m();

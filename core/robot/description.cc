@@ -253,7 +253,8 @@ class TreeWalker {
         const urdf::Color& c = visual->material->color;
         shape.colour = {c.r, c.g, c.b};
       }
-      if (shape.kind == Shape::Kind::kMesh && !std::filesystem::exists(shape.mesh)) {
+      if (shape.kind == Shape::Kind::kMesh && !robot_.meshes.contains(shape.mesh_name) &&
+          !std::filesystem::exists(shape.mesh)) {
         Remark(fmt::format("{}: visual mesh {} is missing and not drawn", link.name,
                            shape.mesh.string()));
         continue;
@@ -278,10 +279,16 @@ class TreeWalker {
     robot_.collisions.push_back(shape);
   }
 
+  std::optional<MeshBounds> BoundsOf(const Shape& shape) const {
+    const auto record = robot_.meshes.find(shape.mesh_name);
+    return record == robot_.meshes.end() ? CalcMeshBounds(shape.mesh, shape.size_m)
+                                         : Scaled(record->second.bounds, shape.size_m);
+  }
+
   /// A mesh in collision becomes the box around it.
   Shape Solid(const Shape& shape, const std::string& link) {
     if (shape.kind != Shape::Kind::kMesh) return shape;
-    const auto bounds = CalcMeshBounds(shape.mesh, shape.size_m);
+    const auto bounds = BoundsOf(shape);
     if (!bounds) {
       Fail(config_, link,
            fmt::format("collision mesh {} cannot be read; put it there, or let the link collide as "
@@ -316,6 +323,7 @@ class TreeWalker {
       shape.kind = Shape::Kind::kMesh;
       shape.size_m = ToVec3(mesh.scale);
       shape.mesh = FindMesh(mesh.filename, config_.urdf);
+      shape.mesh_name = mesh.filename;
     }
     return shape;
   }
@@ -387,11 +395,13 @@ RobotDescription LoadRobot(const RobotConfig& config) {
   return robot;
 }
 
-RobotDescription MakeRobot(const RobotConfig& config, const std::string& urdf_text) {
+RobotDescription MakeRobot(const RobotConfig& config, const std::string& urdf_text,
+                           const MeshRecords& meshes) {
   const urdf::ModelInterfaceSharedPtr model = ParseUrdf(urdf_text, config.urdf.string());
   RobotDescription robot;
   robot.config = config;
   robot.urdf_text = urdf_text;
+  robot.meshes = meshes;
   TreeWalker(config, *model, robot).Walk();
   for (int i = 0; i < kNumBodies; ++i) {
     if (robot.body(i).mass_kg <= 0.0) Fail(config, robot.body(i).name, "needs a positive mass");

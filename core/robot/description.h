@@ -8,6 +8,7 @@
 
 #include "core/config/archive.h"
 #include "core/robot/legs.h"
+#include "core/robot/mesh.h"
 
 namespace scoria::core {
 
@@ -162,6 +163,7 @@ struct Shape {
   bool is_foot = false;
   Vec3 size_m = Vec3::Zero();  // box: edges; cylinder: radius, length; sphere: radius; mesh: scale
   std::filesystem::path mesh;
+  std::string mesh_name;     // as the URDF writes it
   Vec3 p_LG = Vec3::Zero();  // geometry centre in the body's link frame; cylinders along their z
   Mat3 R_LG = Mat3::Identity();
   std::array<float, 3> colour = {0.7f, 0.7f, 0.7f};
@@ -179,6 +181,7 @@ struct RobotDescription {
   std::vector<Shape> collisions, visuals;
   std::vector<std::string> remarks;      // what of the URDF could not be taken as it stands
   std::vector<std::string> held_joints;  // that move in the URDF, outside of the legs; held at zero
+  MeshRecords meshes;                    // of a robot from a log: they stand for the files
 
   [[nodiscard]] double total_mass_kg() const;
   /// Neutral foothold in the trunk frame at z = 0: below the hip, widened by the abduction link.
@@ -210,7 +213,9 @@ inline constexpr int kNumBodies = 1 + kNumJoints;
 
 /// The robot of a URDF text (a log carries it): a trunk and four legs of HAA, HFE, KFE, fixed links
 /// merged, joints in the house convention.
+/// @param meshes  where the log carries them too; files that are not among them are read.
 /// Errors: as ReadRobot.
-[[nodiscard]] RobotDescription MakeRobot(const RobotConfig& config, const std::string& urdf_text);
+[[nodiscard]] RobotDescription MakeRobot(const RobotConfig& config, const std::string& urdf_text,
+                                         const MeshRecords& meshes = {});
 
 }  // namespace scoria::core

@@ -47,6 +47,11 @@ std::optional<TriangleMesh> LoadMesh(const std::filesystem::path& file, const Ve
   return mesh;
 }
 
+MeshBounds Scaled(const MeshBounds& bounds, const Vec3& scale) {
+  const Vec3 a = scale.cwiseProduct(bounds.low), b = scale.cwiseProduct(bounds.high);
+  return {a.cwiseMin(b), a.cwiseMax(b)};
+}
+
 std::optional<MeshBounds> CalcMeshBounds(const std::filesystem::path& file, const Vec3& scale) {
   const std::optional<TriangleMesh> mesh = LoadMesh(file, scale);
   if (!mesh) return std::nullopt;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +25,17 @@ struct TriangleMesh {
 struct MeshBounds {
   Vec3 low, high;
 };
+
+/// What a log keeps of a mesh file: the box around it, without the URDF's scale, and Hash64 of its
+/// content.
+struct MeshRecord {
+  MeshBounds bounds{Vec3::Zero(), Vec3::Zero()};
+  std::uint64_t hash = 0;
+};
+/// By the name that the URDF gives the file.
+using MeshRecords = std::map<std::string, MeshRecord>;
+
+[[nodiscard]] MeshBounds Scaled(const MeshBounds& bounds, const Vec3& scale);
 [[nodiscard]] std::optional<MeshBounds> CalcMeshBounds(const std::filesystem::path& file,
                                                        const Vec3& scale);
 
