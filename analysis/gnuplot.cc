@@ -1,17 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "analysis/gnuplot.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "core/files.h"
+
 namespace scoria::analysis {
 namespace {
+
+namespace fs = std::filesystem;
+
+/// The pages of a figure and what a whole one ends with.
+constexpr std::array<std::pair<const char*, const char*>, 3> kPages = {
+    {{".svg", "</svg>"}, {".png", "IEND"}, {".pdf", "%%EOF"}}};
+
+/// Whether the last bytes of a file, but for a few, are this text.
+bool EndsWith(const fs::path& file, const std::string& text) {
+  constexpr std::size_t kTail = 32;  // newlines, the checksum of a PNG
+  const std::string content = core::ReadText(file);
+  return content.find(text, content.size() - std::min(content.size(), kTail)) != std::string::npos;
+}
 
 std::string ShellQuoted(const std::string& text) {
   std::string out = "'";
@@ -31,51 +47,65 @@ void Figure::Data(const std::string& name, const std::vector<std::vector<double>
   data_ += fmt::format("${} << EOD\n", name);
   for (const auto& row : rows) {
     for (const double value : row)
-      data_ += std::isnan(value) ? "NaN " : fmt::format("{:.9g} ", value);
+      data_ += !std::isfinite(value) ? "NaN " : fmt::format("{:.9g} ", value);
     data_ += "\n";
   }
   data_ += "EOD\n";
 }
 
-void Figure::Render(const std::filesystem::path& folder) const {
-  namespace fs = std::filesystem;
-  fs::create_directories(folder);
-  const fs::path script = folder / (name_ + ".gp");
-  const double width_in = width_px_ / 96.0, height_in = height_px_ / 96.0;
-  std::ofstream out(script);
-  out << "# gnuplot script of this figure: gnuplot " << name_ << ".gp\n" << data_;
-  const auto page = [&](const std::string& terminal, const char* extension) {
-    out << "set terminal " << terminal << "\nset output '" << name_ << "." << extension << "'\n"
-        << script_ << "unset output\nreset\n";
-  };
+std::string Figure::Script() const {
   constexpr const char* kFont = "font 'DejaVu Sans,11' enhanced rounded";
+  const double width_in = width_px_ / 96.0, height_in = height_px_ / 96.0;
+  std::string script =
+      fmt::format("# gnuplot script of this figure: gnuplot {}.gp\n{}", name_, data_);
+  const auto page = [&](const std::string& terminal, const char* extension) {
+    script += fmt::format("set terminal {}\nset output '{}.{}'\n{}unset output\nreset\n", terminal,
+                          name_, extension, script_);
+  };
   page(fmt::format("svg size {},{} {} background rgb 'white'", width_px_, height_px_, kFont),
        "svg");
   page(fmt::format("pngcairo size {},{} {}", width_px_, height_px_, kFont), "png");
   page(fmt::format("pdfcairo size {:.2f}in,{:.2f}in {}", width_in, height_in, kFont), "pdf");
-  out.close();
-  if (!out) throw std::runtime_error(fmt::format("{}: cannot write", script.string()));
-  const fs::path messages = folder / (name_ + ".gnuplot.txt");
+  return script;
+}
+
+void Figure::Render(const fs::path& folder) const {
+  const auto file = [&](const char* extension) { return folder / (name_ + extension); };
+  for (const auto& [extension, ending] : kPages) fs::remove(file(extension));
+  core::CreateFolders(folder);
+  core::WriteText(file(".gp"), Script());
+  // gnuplot draws in a folder of its own, whose files are taken over once they are whole.
+  const fs::path draft = file(".draft");
+  core::CreateFolders(draft);
   const std::string command =
-      fmt::format("cd {} && gnuplot {}.gp > {}.gnuplot.txt 2>&1", ShellQuoted(folder.string()),
-                  ShellQuoted(name_), ShellQuoted(name_));
+      fmt::format("cd {} && gnuplot -d {} > messages.txt 2>&1", ShellQuoted(draft.string()),
+                  ShellQuoted("../" + name_ + ".gp"));
   const int status = std::system(command.c_str());
-  if (status != 0) {
-    std::ifstream in(messages);
-    std::stringstream words;
-    words << in.rdbuf();
-    throw std::runtime_error(fmt::format("{}: gnuplot failed: {}", script.string(), words.str()));
+  std::string problem;
+  if (status != 0) problem = "gnuplot failed: " + core::ReadText(draft / "messages.txt");
+  for (const auto& [extension, ending] : kPages) {
+    const fs::path drawn = draft / (name_ + extension);
+    if (problem.empty() && !EndsWith(drawn, ending))
+      problem = fmt::format("gnuplot wrote no whole {} file", extension);
+    if (problem.empty()) fs::rename(drawn, file(extension));
   }
-  fs::remove(messages);
+  fs::remove_all(draft);
+  if (!problem.empty())
+    throw std::runtime_error(fmt::format("{}: {}", file(".gp").string(), problem));
 }
 
 std::string Escape(const std::string& text) {
+  constexpr std::size_t kLongest = 60;  // characters
+  // What enhanced mode, a string in single quotes, or the number format that a tick's label is
+  // would take for its own; gnuplot reads it by its octal code.
+  constexpr std::string_view kSpecial = "_^@&~{}\\'%";
   std::string out;
-  for (const char c : text) {
-    if (c == '_' || c == '^' || c == '@' || c == '&' || c == '~' || c == '{' || c == '}')
-      out += '\\';
-    if (c == '\'') out += '\'';
-    out += c;
+  std::size_t characters = 0;
+  for (const char c : core::PrintableText(text)) {
+    const bool starts = (static_cast<unsigned char>(c) & 0xc0) != 0x80;  // a character of UTF-8
+    if (starts && ++characters > kLongest) return out + "…";
+    out +=
+        kSpecial.find(c) == std::string_view::npos ? std::string(1, c) : fmt::format("\\{:03o}", c);
   }
   return out;
 }

@@ -18,18 +18,22 @@ class Figure {
   /// One line of gnuplot script.
   void Line(const std::string& text) { script_ += text + "\n"; }
 
-  /// Errors: std::runtime_error with gnuplot's words.
+  /// Nothing of an older figure of that name remains, and no file is half written.
+  /// Errors: std::runtime_error with gnuplot's words; core::FileError.
   void Render(const std::filesystem::path& folder) const;
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const std::string& title() const { return title_; }
 
  private:
+  [[nodiscard]] std::string Script() const;
+
   std::string name_, title_, data_, script_;
   int width_px_, height_px_;
 };
 
-/// Text that gnuplot's enhanced mode shows as it stands.
+/// Any text for a gnuplot string in single quotes, a title or the label of a tick, which enhanced
+/// mode shows as it stands; what is too long for a figure is cut.
 [[nodiscard]] std::string Escape(const std::string& text);
 
 /// Colours of arms, safe for the common colour-vision deficiencies ([Okabe2008]).

@@ -2,10 +2,13 @@
 #include "analysis/html.h"
 
 #include <cctype>
+#include <cstring>
 
 #include <boost/archive/iterators/base64_from_binary.hpp>
 #include <boost/archive/iterators/transform_width.hpp>
 #include <fmt/format.h>
+
+#include "core/files.h"
 
 namespace scoria::analysis {
 namespace {
@@ -23,6 +26,17 @@ figure { margin: 1.5em 0; } figure svg { max-width: 100%; height: auto; } video 
 @media (max-width: 800px) { .columns { display: block; } }
 figcaption, .note { color: #555; font-size: 13px; } li { margin: 0.3em 0; }
 )";
+
+/// A relative path as a link: its bytes, with all but the harmless ones in hexadecimal.
+std::string UrlOf(const std::string& path) {
+  std::string url;
+  for (const char c : path) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool harmless = byte < 128 && (std::isalnum(byte) != 0 || std::strchr("/._-", c));
+    url += harmless ? std::string(1, c) : fmt::format("%{:02X}", byte);
+  }
+  return url;
+}
 
 /// gnuplot gives the same ids to the parts of every drawing; on one page they must differ.
 std::string WithUniqueIds(const std::string& svg, int number) {
@@ -51,7 +65,7 @@ std::string Base64(const std::string& bytes) {
 
 std::string EscapeHtml(const std::string& text) {
   std::string out;
-  for (const char c : text) {
+  for (const char c : core::PrintableText(text)) {
     switch (c) {
       case '&':
         out += "&amp;";
@@ -130,7 +144,7 @@ void HtmlPage::Video(const std::string& path, const std::string& caption) {
   body_ += fmt::format(
       "<figure><video controls preload=\"metadata\" src=\"{0}\"></video><figcaption><a "
       "href=\"{0}\">{1}</a></figcaption></figure>\n",
-      EscapeHtml(path), EscapeHtml(caption));
+      EscapeHtml(UrlOf(path)), EscapeHtml(caption));
 }
 
 std::string HtmlPage::Finish() const {

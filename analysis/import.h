@@ -17,7 +17,7 @@ struct LogContent {
 };
 
 /// @param every keeps every n-th row.
-/// Errors: std::runtime_error if the file cannot be read.
+/// A file that is no log has no rows and a problem.
 [[nodiscard]] LogContent ReadLog(const std::filesystem::path& log, int every = 1);
 
 }  // namespace scoria::analysis

@@ -19,6 +19,7 @@
 #include "analysis/model_report.h"
 #include "analysis/tables.h"
 #include "core/files.h"
+#include "core/folder_lock.h"
 
 namespace scoria::analysis {
 namespace {
@@ -70,7 +71,7 @@ void AddFailures(const CampaignResults& results, HtmlPage& page) {
   std::map<std::string, std::map<std::string, std::uint64_t>> counters;
   long stuck = 0;
   for (const EpisodeRecord& e : results.episodes) {
-    if (e.end != "completed") broken.push_back({e.id, e.end, e.message});
+    if (e.end != "completed" || !e.message.empty()) broken.push_back({e.id, e.end, e.message});
     for (const FallEvent& f : e.metrics.falls)
       ++causes[f.cause.substr(0, f.cause.find(' '))][e.arm];
     stuck += e.stuck;
@@ -271,9 +272,14 @@ void AddTerrain(const CampaignResults& results, HtmlPage& page) {
 void AddFigures(const std::vector<CaptionedFigure>& figures, const fs::path& folder,
                 HtmlPage& page) {
   for (const CaptionedFigure& f : figures) {
-    f.figure.Render(folder);
-    page.InlineSvg(core::ReadText(folder / (f.figure.name() + ".svg")), f.figure.title(),
-                   f.caption);
+    try {
+      f.figure.Render(folder);
+      page.InlineSvg(core::ReadText(folder / (f.figure.name() + ".svg")), f.figure.title(),
+                     f.caption);
+    } catch (const std::exception& e) {
+      page.Paragraph(fmt::format("{}: this figure could not be drawn: {}", f.figure.title(),
+                                 core::PrintableText(e.what())));
+    }
   }
 }
 
@@ -286,6 +292,7 @@ void AddCourses(const CampaignResults& results, const fs::path& figures, HtmlPag
     const bool wanted = results.single_run || !e.metrics.falls.empty();
     if (!wanted || !fs::exists(log) || courses.size() >= kMost) continue;
     const LogContent content = ReadLog(log, 4);
+    if (!content.problem.empty()) page.Note(content.problem);
     if (!content.rows.empty()) courses.push_back(TimeFigure(content, e.id));
   }
   if (courses.empty()) return;
@@ -324,7 +331,8 @@ void AddTimes(const CampaignResults& results, HtmlPage& page) {
 
 void AddVideos(const fs::path& folder, HtmlPage& page) {
   std::vector<std::pair<std::string, std::string>> links;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+  for (const auto& entry :
+       fs::recursive_directory_iterator(folder, fs::directory_options::skip_permission_denied)) {
     if (entry.path().extension() != ".mp4") continue;
     links.emplace_back("../" + fs::relative(entry.path(), folder).string(),
                        entry.path().stem().string());
@@ -340,7 +348,8 @@ void AddVideos(const fs::path& folder, HtmlPage& page) {
 fs::path WriteReport(const fs::path& folder, const std::optional<ReportPicture>& picture) {
   const CampaignResults results = LoadResults(folder);
   const fs::path out = folder / "report", figures = out / "figures";
-  fs::create_directories(figures);
+  const core::FolderLock lock(out);
+  core::CreateFolders(figures);
   const std::vector<Cell> cells = AllCells(results);
 
   HtmlPage page(results.name);

@@ -15,7 +15,8 @@ struct ReportPicture {
 /// Writes the report of a campaign's or a run's folder into FOLDER/report: report.html
 /// (self-contained, videos linked), metrics.csv, metrics.json, figures as SVG, PNG, PDF and gnuplot
 /// script.
-/// @returns the page. Errors: std::runtime_error.
+/// A result or log that cannot be read, or a figure that gnuplot refuses, is a sentence in it.
+/// @returns the page. Errors: std::runtime_error, core::FolderInUse, core::FileError.
 std::filesystem::path WriteReport(const std::filesystem::path& folder,
                                   const std::optional<ReportPicture>& picture = std::nullopt);
 

@@ -3,29 +3,36 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
 #include <stdexcept>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "analysis/terrain_view.h"
+#include "core/files.h"
+
 namespace scoria::analysis {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-json ReadJson(const fs::path& path) {
-  std::ifstream in(path);
-  if (!in) throw std::runtime_error(fmt::format("{}: cannot read the file", path.string()));
-  try {
-    return json::parse(in);
-  } catch (const json::exception& e) {
-    throw std::runtime_error(fmt::format("{}: {}", path.string(), e.what()));
-  }
+void FillMetrics(const json& j, EpisodeRecord& episode) {
+  j.at("falls").get_to(episode.falls);
+  j.at("stuck").get_to(episode.stuck);
+  j.at("walked_m").get_to(episode.walked_m);
+  j.at("real_time_factor").get_to(episode.real_time_factor);
+  j.at("counters").get_to(episode.counters);
+  episode.us_per_step = j.value("us_per_step", episode.us_per_step);  // not in older results
+  episode.terrain = StatisticsFromJson(j.at("terrain"));
+  episode.metrics = j.at("metrics").get<EpisodeMetrics>();
+  episode.ground = j.value("ground", std::to_string(episode.seed));  // not in older results
+  for (const json& p : j.value("route", json::array()))
+    episode.route.emplace_back(p.at(0).get<double>(), p.at(1).get<double>());
+  episode.has_metrics = true;
 }
 
+/// A result that cannot be read is a crashed episode.
 void ReadResult(const fs::path& folder, EpisodeRecord& episode) {
   episode.folder = folder;
   const fs::path file = folder / "result.json";
@@ -33,26 +40,64 @@ void ReadResult(const fs::path& folder, EpisodeRecord& episode) {
     episode.end = "missing";
     return;
   }
-  const json j = ReadJson(file);
+  EpisodeRecord read = episode;
   try {
-    j.at("end").get_to(episode.end);
-    episode.message = j.value("message", "");
+    const json j = json::parse(core::ReadText(file));
+    j.at("end").get_to(read.end);
+    read.message = j.value("message", "");
+    episode.end = read.end;
+    episode.message = read.message;
     if (!j.contains("metrics")) return;
-    j.at("falls").get_to(episode.falls);
-    j.at("stuck").get_to(episode.stuck);
-    j.at("walked_m").get_to(episode.walked_m);
-    j.at("real_time_factor").get_to(episode.real_time_factor);
-    j.at("counters").get_to(episode.counters);
-    episode.us_per_step = j.value("us_per_step", episode.us_per_step);  // not in older results
-    episode.terrain = StatisticsFromJson(j.at("terrain"));
-    episode.metrics = j.at("metrics").get<EpisodeMetrics>();
-    episode.ground = j.value("ground", std::to_string(episode.seed));  // not in older results
-    for (const json& p : j.value("route", json::array()))
-      episode.route.emplace_back(p.at(0).get<double>(), p.at(1).get<double>());
-    episode.has_metrics = true;
-  } catch (const json::exception& e) {
-    throw std::runtime_error(fmt::format("{}: {}", file.string(), e.what()));
+    FillMetrics(j, read);
+    episode = std::move(read);
+  } catch (const std::exception& e) {
+    if (episode.end.empty() || episode.end == "completed") episode.end = "crashed";
+    episode.message = fmt::format("{}result.json cannot be read: {}",
+                                  episode.message.empty() ? "" : episode.message + "; ", e.what());
   }
+}
+
+/// The results of a single run, as a campaign of one.
+CampaignResults LoadRun(const fs::path& folder) {
+  CampaignResults results;
+  EpisodeRecord episode;
+  ReadResult(folder, episode);
+  const json j = json::parse(core::ReadText(folder / "result.json"), nullptr, false);
+  const auto name = j.is_object() ? j.find("scenario") : j.end(), end = j.end();
+  results.name = name != end && name->is_string() ? name->get<std::string>()
+                                                  : fs::absolute(folder).filename().string();
+  episode.id = episode.arm = results.name;
+  results.arms = {episode.arm};
+  results.episodes = {episode};
+  results.single_run = true;
+  return results;
+}
+
+/// The index of a campaign, without what its episodes left.
+CampaignResults ReadIndex(const fs::path& file) {
+  CampaignResults results;
+  try {
+    const json j = json::parse(core::ReadText(file));
+    j.at("name").get_to(results.name);
+    j.at("arms").get_to(results.arms);
+    for (const json& axis : j.at("sweep")) {
+      results.axes.push_back({axis.at("key"), axis.at("label"),
+                              axis.at("values").get<std::vector<std::string>>(),
+                              axis.value("baseline", "")});  // not in older results
+    }
+    for (const json& e : j.at("episodes")) {
+      EpisodeRecord& episode = results.episodes.emplace_back();
+      e.at("id").get_to(episode.id);
+      e.at("arm").get_to(episode.arm);
+      e.at("point").get_to(episode.point);
+      e.at("seed").get_to(episode.seed);
+    }
+  } catch (const json::exception& e) {
+    throw std::runtime_error(
+        fmt::format("{}: cannot be read; the same campaign command writes it anew ({})",
+                    file.string(), e.what()));
+  }
+  return results;
 }
 
 }  // namespace
@@ -66,39 +111,14 @@ bool Axis::IsNumeric() const {
 }
 
 CampaignResults LoadResults(const fs::path& folder) {
-  CampaignResults results;
   if (!fs::exists(folder / "campaign.json")) {
-    if (!fs::exists(folder / "result.json")) {
-      throw std::runtime_error(
-          fmt::format("{}: holds neither campaign.json nor result.json", folder.string()));
-    }
-    const json j = ReadJson(folder / "result.json");
-    EpisodeRecord episode;
-    episode.id = episode.arm = results.name = j.value("scenario", "run");
-    episode.seed = j.value("seed", std::uint64_t{0});
-    ReadResult(folder, episode);
-    results.arms = {episode.arm};
-    results.episodes = {episode};
-    results.single_run = true;
-    return results;
+    if (fs::exists(folder / "result.json")) return LoadRun(folder);
+    throw std::runtime_error(
+        fmt::format("{}: holds neither campaign.json nor result.json", folder.string()));
   }
-  const json j = ReadJson(folder / "campaign.json");
-  j.at("name").get_to(results.name);
-  j.at("arms").get_to(results.arms);
-  for (const json& axis : j.at("sweep")) {
-    results.axes.push_back({axis.at("key"), axis.at("label"),
-                            axis.at("values").get<std::vector<std::string>>(),
-                            axis.value("baseline", "")});  // not in older results
-  }
-  for (const json& e : j.at("episodes")) {
-    EpisodeRecord episode;
-    e.at("id").get_to(episode.id);
-    e.at("arm").get_to(episode.arm);
-    e.at("point").get_to(episode.point);
-    e.at("seed").get_to(episode.seed);
+  CampaignResults results = ReadIndex(folder / "campaign.json");
+  for (EpisodeRecord& episode : results.episodes)
     ReadResult(folder / "episodes" / episode.id, episode);
-    results.episodes.push_back(std::move(episode));
-  }
   return results;
 }
 

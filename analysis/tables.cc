@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "analysis/json_text.h"
 #include "core/files.h"
 
 namespace scoria::analysis {
@@ -17,7 +18,7 @@ namespace {
 
 /// A CSV field.
 std::string Quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string out = "\"";
   for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
   return out + "\"";
@@ -81,7 +82,7 @@ std::vector<std::pair<const char*, std::optional<double>>> ModelNumbers(
 void WriteTables(const CampaignResults& results, const std::vector<Cell>& cells,
                  const std::filesystem::path& folder) {
   std::string csv = "id,arm";
-  for (const Axis& axis : results.axes) csv += "," + axis.key;
+  for (const Axis& axis : results.axes) csv += "," + Quoted(axis.key);
   csv +=
       ",seed,end,distance_m,falls,stuck,cot_mech_abs,cot_mech_pos,cot_electrical,cot_battery,"
       "velocity_rmse_mps,"
@@ -143,7 +144,7 @@ void WriteTables(const CampaignResults& results, const std::vector<Cell>& cells,
                                      {"verdict", c.verdict}});
     }
   }
-  core::WriteText(folder / "metrics.json", json.dump(2) + "\n");
+  core::WriteText(folder / "metrics.json", JsonText(json));
 }
 
 }  // namespace scoria::analysis

@@ -13,6 +13,7 @@
 
 #include "analysis/gnuplot.h"
 #include "analysis/ground_colour.h"
+#include "analysis/json_text.h"
 #include "core/files.h"
 
 namespace scoria::analysis {
@@ -86,8 +87,9 @@ void WriteRelief(const Heightfield& ground, const terrains::TerrainParams& param
       fmt::format("centre; nu(1 m) {:.3f} m, H {:.2f}, slope {:.0f} deg mean, {:.0f} deg 95 %",
                   s.nu_1m_m, s.hurst, s.slope_mean_rad * kDegrees, s.slope_95_rad * kDegrees));
   DrawLegend(image, ground, s);
-  if (!cv::imwrite(file.string(), image))
-    throw std::runtime_error(fmt::format("{}: cannot write", file.string()));
+  std::vector<uchar> png;
+  cv::imencode(".png", image, png);
+  core::WriteText(file, std::string(png.begin(), png.end()));
 }
 
 Figure DeviogramFigure(const std::vector<terrains::Deviation>& deviogram, const std::string& name) {
@@ -160,7 +162,7 @@ void WriteTerrainView(const Heightfield& ground, const terrains::TerrainParams& 
   std::filesystem::create_directories(folder);
   WriteRelief(ground, params, statistics, folder / "relief.png");
   DeviogramFigure(terrains::MeasureDeviogram(ground, params), Escape(params.name)).Render(folder);
-  core::WriteText(folder / "terrain.json", TerrainJson(ground, params, statistics).dump(2) + "\n");
+  core::WriteText(folder / "terrain.json", JsonText(TerrainJson(ground, params, statistics)));
 }
 
 }  // namespace scoria::analysis

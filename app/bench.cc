@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "analysis/json_text.h"
 #include "app/qp_sets.h"
 #include "app/runner.h"
 #include "controller/estimation/inekf.h"
@@ -82,7 +83,7 @@ void BenchQp(const Options& o) {
         "", b.warm_solved, b.warm_problems, b.warm_median_us, b.warm_p99_us,
         b.warm_mean_iterations);
   }
-  if (o.json) fmt::print("{}\n", json.dump(2));
+  if (o.json) fmt::print("{}", analysis::JsonText(json));
 }
 
 /// Whole-body model at poses around standing, as the controller calls it.
@@ -106,7 +107,7 @@ void BenchModel(const Options& o) {
   }
   nlohmann::json json = {{"model", Spread(us)}, {"mass_kg", sink / (kCalls * kAtOnce)}};
   if (o.json) {
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}", analysis::JsonText(json));
   } else {
     Print("whole-body model", json["model"]);
   }
@@ -148,7 +149,7 @@ void BenchEstimator(const Options& o) {
   }
   const nlohmann::json json = {{"estimator", Spread(us)}, {"nis", nis}};
   if (o.json) {
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}", analysis::JsonText(json));
   } else {
     Print("predict and correct", json["estimator"]);
   }
@@ -187,7 +188,7 @@ void BenchPhysics(const Options& o) {
   }
   const nlohmann::json json = {{"physics", Spread(us)}};
   if (o.json) {
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}", analysis::JsonText(json));
   } else {
     Print("physics step, standing", json["physics"]);
   }
@@ -208,7 +209,7 @@ void BenchEpisode(const Options& o) {
   for (const auto& [stage, name] : EnumNames(core::Stage{}))
     json["us_per_step"][name] = r.times[stage] / steps * kUsPerS;
   if (o.json) {
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}", analysis::JsonText(json));
     return;
   }
   fmt::print("{}: {:.1f} times real time over {:.0f} s and {:.1f} m\n", scenario.name,

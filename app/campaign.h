@@ -3,9 +3,11 @@
 
 #include <atomic>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "app/scenario.h"
 #include "core/config/archive.h"
 
 namespace scoria::app {
@@ -39,21 +41,40 @@ struct Campaign {
 [[nodiscard]] Campaign LoadCampaign(const std::filesystem::path& file,
                                     const std::vector<std::string>& overrides);
 
+/// One episode of a campaign.
+struct CampaignJob {
+  std::string id, arm;             // id: its folder's name
+  std::vector<std::string> point;  // value per axis
+  std::uint64_t seed = 0;
+  Scenario scenario;
+};
+
+/// Every combination of arms, values and seeds.
+/// Errors: core::ConfigError if a scenario is wrong or two episodes have one name.
+[[nodiscard]] std::vector<CampaignJob> AllJobs(const Campaign& campaign);
+
 struct CampaignOptions {
   std::filesystem::path folder;  // out/NAME by default
   int workers = 2;
   std::string program;  // the scoria executable, for the workers
   const std::atomic<bool>* interrupted = nullptr;
+  /// Why episodes that an earlier campaign left in the folder are walked again, and how many.
+  std::function<void(const std::string& reason, int episodes)> on_again;
 };
 
 struct CampaignOutcome {
   int episodes = 0, done_before = 0, crashed = 0;
+  int failed = 0;      // ended non_finite or hardly walked
+  int unfinished = 0;  // to be walked by the same command again
   bool interrupted = false;
+  std::string disk_problem;  // why the campaign ended early, if the disk refused a file
 };
 
 /// Runs every episode in a worker process of its own: a crash is an outcome in the results, never
-/// the end of the batch. Episodes whose result stands in the folder under the same scenario are
-/// kept, so a stopped campaign resumes.
+/// the end of the batch. Episodes whose result stands in the folder, of the same version and
+/// scenario and of files with the same content, are kept, so a stopped campaign resumes. What was
+/// killed from outside, ran out of space or left an unreadable result is walked by the next one.
+/// Errors: core::FolderInUse; core::FileError if the disk refuses the campaign's own folder.
 CampaignOutcome RunCampaign(const Campaign& campaign, const CampaignOptions& options);
 
 }  // namespace scoria::app

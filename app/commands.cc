@@ -2,8 +2,10 @@
 #include "app/commands.h"
 
 #include <atomic>
+#include <charconv>
 #include <cmath>
 #include <csignal>
+#include <cstdio>
 #include <fstream>
 #include <memory>
 #include <numbers>
@@ -17,15 +19,19 @@
 #include "app/bench.h"
 #include "app/campaign.h"
 #include "app/config_docs.h"
+#include "app/config_kinds.h"
 #include "app/episode_files.h"
 #include "app/inspection.h"
+#include "app/log_origin.h"
 #include "app/progress.h"
 #include "app/qp_check.h"
 #include "app/replay.h"
 #include "app/report_picture.h"
+#include "app/run_folder.h"
 #include "app/scenario.h"
 #include "app/verify.h"
-#include "terrains/generator.h"
+#include "core/files.h"
+#include "core/robot/mesh_records.h"
 
 namespace scoria::app {
 namespace {
@@ -37,6 +43,9 @@ std::atomic<bool> g_interrupted = false;  // the only state that a signal handle
 void CatchInterrupts() {
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { g_interrupted = true; });
 }
+
+/// A line on standard error, which may be a file on a full disk: no exception then.
+void Note(const std::string& text) { std::fputs((text + "\n").c_str(), stderr); }
 
 void PrintEstimation(const char* what, const analysis::EstimationMetrics& m) {
   const analysis::DriftSummary drift = analysis::SummariseDrift(m);
@@ -92,13 +101,16 @@ void AddRun(CLI::App& app, int& exit_code) {
   struct Options {
     std::string scenario, out, save_qps;
     std::vector<std::string> set;
-    bool json = false, quiet = false;
+    bool json = false, quiet = false, force = false;
   };
   auto o = std::make_shared<Options>();
   CLI::App* run = app.add_subcommand("run", "walk one scenario");
   run->add_option("scenario", o->scenario, "scenario YAML")->required();
   run->add_option("--set", o->set, "override a key, as operator.speed_mps=0.5");
-  run->add_option("--out", o->out, "folder for log and result (default out/NAME)");
+  run->add_option(
+      "--out", o->out,
+      "folder for log and result (default out/NAME, or the first free of NAME-2, NAME-3 ...)");
+  run->add_flag("--force", o->force, "overwrite a finished run in that folder");
   run->add_option("--save-qps", o->save_qps,
                   "folder for every MPC and WBC problem with its solution (17 MB per second)");
   run->add_flag("--json", o->json, "print result.json instead of a summary");
@@ -107,10 +119,19 @@ void AddRun(CLI::App& app, int& exit_code) {
     const Scenario scenario = LoadScenario(o->scenario, o->set);
     CatchInterrupts();
     RunOptions options;
-    options.folder = o->out.empty() ? std::filesystem::path("out") / scenario.name
-                                    : std::filesystem::path(o->out);
+    const std::filesystem::path preferred =
+        std::filesystem::path("out") / core::FileNameOf(scenario.name);
+    const RunFolder folder = TakeRunFolder(o->out, preferred, o->force);
+    if (o->out.empty() && folder.path != preferred && !o->quiet)
+      Note(fmt::format("{} is taken; writing to {}", preferred.string(), folder.path.string()));
+    options.folder = folder.path;
     options.interrupted = &g_interrupted;
     options.save_qps = o->save_qps;
+    if (!o->quiet) {
+      options.on_warning = [](const std::string& warning) {
+        fmt::print(stderr, "warning: {}\n", warning);
+      };
+    }
     EpisodeReport report;
     {
       ProgressBar bar(scenario.name);
@@ -125,8 +146,22 @@ void AddRun(CLI::App& app, int& exit_code) {
     } else if (!o->quiet) {
       PrintSummary(scenario, report, options.folder.string());
     }
-    exit_code = report.result.end == EpisodeEnd::kInterrupted ? kStopped : kOk;
+    const bool stopped = report.result.end == EpisodeEnd::kInterrupted;
+    if (!stopped && !report.failure.empty()) Note(scenario.name + ": " + report.failure);
+    exit_code = stopped ? kStopped : report.failure.empty() ? kOk : kFailed;
   });
+}
+
+void PrintOutcome(const std::string& name, const CampaignOutcome& outcome,
+                  const std::string& folder) {
+  if (!outcome.disk_problem.empty()) Note(outcome.disk_problem);
+  fmt::print("{}: {} episodes ({} from before, {} crashed, {} did not walk){} in {}\n", name,
+             outcome.episodes, outcome.done_before, outcome.crashed, outcome.failed,
+             outcome.interrupted ? ", interrupted" : "", folder);
+  if (outcome.unfinished > 0) {
+    fmt::print("{} episodes are to be walked yet; {}the same command goes on with them\n",
+               outcome.unfinished, outcome.disk_problem.empty() ? "" : "make room, and then ");
+  }
 }
 
 void AddCampaign(CLI::App& app, int& exit_code) {
@@ -147,16 +182,19 @@ void AddCampaign(CLI::App& app, int& exit_code) {
     const Campaign loaded = LoadCampaign(o->file, o->set);
     CatchInterrupts();
     CampaignOptions options;
-    options.folder =
-        o->out.empty() ? std::filesystem::path("out") / loaded.name : std::filesystem::path(o->out);
+    options.folder = o->out.empty() ? std::filesystem::path("out") / core::FileNameOf(loaded.name)
+                                    : std::filesystem::path(o->out);
     options.workers = o->workers;
     options.program = std::filesystem::read_symlink("/proc/self/exe").string();
     options.interrupted = &g_interrupted;
+    options.on_again = [](const std::string& reason, int episodes) {
+      Note(fmt::format("walked again: {} ({})",
+                       episodes == 1 ? "1 episode" : fmt::format("{} episodes", episodes), reason));
+    };
     const CampaignOutcome outcome = RunCampaign(loaded, options);
-    fmt::print("{}: {} episodes ({} from before, {} crashed){} in {}\n", loaded.name,
-               outcome.episodes, outcome.done_before, outcome.crashed,
-               outcome.interrupted ? ", interrupted" : "", options.folder.string());
-    exit_code = outcome.interrupted ? kStopped : kOk;
+    PrintOutcome(loaded.name, outcome, options.folder.string());
+    const bool stopped = outcome.interrupted || outcome.unfinished > 0;
+    exit_code = !outcome.disk_problem.empty() ? kFileError : stopped ? kStopped : kOk;
   });
 }
 
@@ -168,6 +206,20 @@ void AddReport(CLI::App& app) {
   report->callback([folder] {
     fmt::print("{}\n", analysis::WriteReport(*folder, MakeReportPicture(*folder)).string());
   });
+}
+
+/// @returns what is wrong with the width or height of a video; empty if nothing.
+std::string CheckFrameEdge(const std::string& text) {
+  int edge_px = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), edge_px);
+  if (error != std::errc{} || stop != text.data() + text.size())
+    return fmt::format("\"{}\" is not a number of pixels", text);
+  const bool fits = edge_px >= analysis::kSmallestFrame_px && edge_px <= analysis::kLargestFrame_px;
+  return fits ? ""
+              : fmt::format(
+                    "{} is outside [{}, {}] px: smaller frames hold no text, larger ones "
+                    "no player shows",
+                    edge_px, analysis::kSmallestFrame_px, analysis::kLargestFrame_px);
 }
 
 void AddRender(CLI::App& app) {
@@ -184,23 +236,26 @@ void AddRender(CLI::App& app) {
   render->add_option("--frames", o->frames, "folder for a PNG every five seconds");
   render->add_option("--from", o->from_s, "start [s]");
   render->add_option("--to", o->to_s, "end [s]");
-  render->add_option("--size", o->size, "width and height [px]")
+  render->add_option("--size", o->size, "width and height [px], as 960 540 or 960x540")
       ->expected(2)
-      ->check(CLI::Range(64, 4096));
+      ->delimiter('x')
+      ->check(CLI::Validator(CheckFrameEdge, ""));
   render->add_option("--fps", o->fps, "frames per second")->check(CLI::Range(1, 240));
   render->callback([o] {
-    const LogOrigin origin = ReadLogOrigin(o->log);
-    const core::RobotDescription robot = core::MakeRobot(origin.scenario.robot, origin.urdf_text);
-    const terrains::Heightfield ground =
-        terrains::GenerateTerrain(origin.scenario.terrain, origin.scenario.seed, 0);
-    analysis::LogContent content = analysis::ReadLog(o->log);
-    if (!content.problem.empty()) fmt::print(stderr, "{}\n", content.problem);
-    std::erase_if(content.rows, [&](const core::LogRow& r) {
-      return r.time_s < o->from_s || r.time_s > o->to_s;
-    });
     analysis::VideoOptions options;
     options.file = o->out.empty() ? std::filesystem::path(o->log).replace_extension(".mp4")
                                   : std::filesystem::path(o->out);
+    analysis::CheckVideoFile(options.file);  // before the long way there
+    const LogOrigin origin = ReadLogOrigin(o->log);
+    core::RobotDescription robot = RobotOf(origin);
+    for (const std::string& remark : core::DrawLostMeshesAsBoxes(robot)) Note(remark);
+    const terrains::Heightfield ground = GroundOf(origin);
+    analysis::LogContent content = analysis::ReadLog(o->log);
+    if (!content.problem.empty()) Note(content.problem);
+    std::erase_if(content.rows, [&](const core::LogRow& r) {
+      const bool finite = std::isfinite(r.p_WB_m[0] + r.p_WB_m[1] + r.p_WB_m[2]);
+      return !finite || r.time_s < o->from_s || r.time_s > o->to_s;
+    });
     options.frames = o->frames;
     options.width_px = o->size[0];
     options.height_px = o->size[1];
@@ -233,11 +288,19 @@ void AddCheckQps(CLI::App& app, int& exit_code) {
 }
 
 void AddSchema(CLI::App& app) {
-  auto markdown = std::make_shared<bool>(false);
-  CLI::App* schema = app.add_subcommand("schema", "print the scenario keys as a JSON Schema");
-  schema->add_flag("--markdown", *markdown, "as the table of docs/CONFIG.md");
+  struct Options {
+    std::string kind = "scenario";
+    bool markdown = false;
+  };
+  auto o = std::make_shared<Options>();
+  CLI::App* schema = app.add_subcommand("schema", "print the keys of a YAML file as a JSON Schema");
+  std::vector<std::string> kinds;
+  for (const ConfigKind& kind : ConfigKinds()) kinds.emplace_back(kind.name);
+  schema->add_option("kind", o->kind, "kind of file (default scenario)")
+      ->check(CLI::IsMember(kinds));
+  schema->add_flag("--markdown", o->markdown, "all kinds as the tables of docs/CONFIG.md");
   schema->callback(
-      [markdown] { fmt::print("{}", *markdown ? ConfigMarkdown() : ConfigJsonSchema()); });
+      [o] { fmt::print("{}", o->markdown ? ConfigMarkdown() : ConfigJsonSchema(o->kind)); });
 }
 
 void AddVerify(CLI::App& app, int& exit_code) {
@@ -248,7 +311,8 @@ void AddVerify(CLI::App& app, int& exit_code) {
     const VerifyResult result = VerifyLog(*log);
     if (!result.file_problem.empty()) fmt::print("{}\n", result.file_problem);
     if (result.identical) {
-      fmt::print("identical: {} messages\n", result.messages);
+      fmt::print("identical: {} messages{}\n", result.messages,
+                 result.complete ? "" : fmt::format(", up to {:.3f} s", result.until_s));
     } else {
       fmt::print("first difference after {} equal messages: {}\n",
                  result.messages > 0 ? result.messages - 1 : 0, result.difference);

@@ -3,9 +3,9 @@
 
 #include <CLI/CLI.hpp>
 
-namespace scoria::app {
+#include "app/exit_codes.h"
 
-enum ExitCode { kOk = 0, kFailed = 1, kBadInput = 2, kStopped = 3 };
+namespace scoria::app {
 
 /// Adds every subcommand of `scoria`. The one that the user names sets `exit_code`.
 void AddCommands(CLI::App& app, int& exit_code);

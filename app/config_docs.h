@@ -2,14 +2,15 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace scoria::app {
 
-/// Every key of a scenario with kind, default, range and meaning, as the Markdown of
+/// Every key of scenarios and campaigns with kind, default, range and meaning, as the Markdown of
 /// docs/CONFIG.md.
 [[nodiscard]] std::string ConfigMarkdown();
 
-/// The same as a JSON Schema, for editors that complete and check YAML.
-[[nodiscard]] std::string ConfigJsonSchema();
+/// The keys of a kind of ConfigKinds() as a JSON Schema, for editors that complete and check YAML.
+[[nodiscard]] std::string ConfigJsonSchema(std::string_view kind);
 
 }  // namespace scoria::app

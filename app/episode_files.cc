@@ -3,13 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <optional>
 
 #include <nlohmann/json.hpp>
 
+#include "analysis/json_text.h"
 #include "analysis/terrain_view.h"
+#include "app/inputs.h"
 #include "app/qp_recorder.h"
+#include "app/robot_warnings.h"
 #include "app/version.h"
 #include "core/files.h"
 #include "core/hash.h"
@@ -51,24 +53,67 @@ nlohmann::json RouteToJson(const Route& route) {
   return json;
 }
 
-namespace fs = std::filesystem;
+void Warn(const Scenario& scenario, const core::RobotDescription& robot,
+          const terrains::Terrain& terrain, const std::function<void(const std::string&)>& warn) {
+  for (const std::string& w : WalkWarnings(robot, scenario.controller.mpc, scenario.gravity_mps2))
+    warn(fmt::format("{}: {}", robot.config.name, w));
+  for (const std::string& remark : terrains::HeightmapRemarks(terrain, scenario.terrain))
+    warn(fmt::format("{}: {}", scenario.terrain.name, remark));
+}
+
+/// The way that the operator commands in the time that a robot has once it stands. One that never
+/// stands was commanded it all the same.
+double CommandedWay(const OperatorParams& operation, double duration_s) {
+  constexpr double kStandUp_s = 3.0;
+  const double walking_s = std::max(0.0, duration_s - kStandUp_s);
+  if (const auto* route = std::get_if<RouteParams>(&operation))
+    return std::min(route->distance_m, route->speed_mps * walking_s);
+  const std::vector<VelocityStep>& steps = std::get<VelocityProgramme>(operation).steps;
+  double way_m = 0.0;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const double until_s =
+        i + 1 < steps.size() ? std::min(steps[i + 1].at_s, walking_s) : walking_s;
+    way_m +=
+        std::hypot(steps[i].v_x_mps, steps[i].v_y_mps) * std::max(0.0, until_s - steps[i].at_s);
+  }
+  return way_m;
+}
+
+std::string DescribeFailure(const EpisodeResult& result, double commanded_m) {
+  constexpr double kCommanded_m = 0.5, kWalked_m = 0.1;
+  if (result.end == EpisodeEnd::kNonFinite)
+    return fmt::format("the state is not finite after {:.3f} s", result.duration_s);
+  if (commanded_m > kCommanded_m && !(result.walked_m >= kWalked_m))
+    return fmt::format("walked {:.2f} m where {:.2f} m were commanded", result.walked_m,
+                       commanded_m);
+  return "";
+}
+
+/// What an older run left must not stand beside the new one.
+void RemoveOldRun(const std::filesystem::path& folder) {
+  for (const char* name : {"result.json", "log.mcap", "report"})
+    std::filesystem::remove_all(folder / name);
+}
 
 }  // namespace
 
 EpisodeReport RunToFolder(const Scenario& scenario, const RunOptions& options) {
+  const InputHashes inputs = InputHasher().Hash(scenario);  // before the files are read
   const core::RobotDescription robot = core::LoadRobot(scenario.robot);
-  fs::create_directories(options.folder);
-  fs::remove(options.folder / "result.json");  // an old result must not stand beside a new scenario
+  core::CreateFolders(options.folder);
+  RemoveOldRun(options.folder);
   core::WriteText(options.folder / "scenario.yaml", EffectiveYaml(scenario));
-  const terrains::Heightfield ground =
-      terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);
-  const nlohmann::json terrain =
-      analysis::ToJson(terrains::MeasureTerrain(ground, scenario.terrain));
+  const terrains::Terrain made = terrains::MakeTerrain(scenario.terrain, scenario.seed, 0);
+  const terrains::Heightfield& ground = made.ground;
+  if (options.on_warning) Warn(scenario, robot, made, options.on_warning);
+  nlohmann::json terrain = analysis::ToJson(terrains::MeasureTerrain(ground, scenario.terrain));
+  terrain["cut_nodes"] = made.cut_nodes;
 
   std::optional<FileSink> file;
   if (scenario.log.keep != KeepLog::kMetrics) {
-    file.emplace(options.folder / "log.mcap", scenario, robot.urdf_text,
-                 core::McapMetadata{{"version", kVersion}, {"terrain", terrain.dump()}});
+    file.emplace(
+        options.folder / "log.mcap", scenario, robot,
+        core::McapMetadata{{"version", kVersion}, {"terrain", analysis::JsonText(terrain)}});
   }
   analysis::MetricsAccumulator accumulator(scenario.gravity_mps2);
   int falls = 0;
@@ -101,6 +146,8 @@ EpisodeReport RunToFolder(const Scenario& scenario, const RunOptions& options) {
   report.metrics = accumulator.Finish();
   if (file) file->Close();
   const EpisodeResult& r = report.result;
+  report.commanded_m = CommandedWay(scenario.operation, r.duration_s);
+  report.failure = DescribeFailure(r, report.commanded_m);
   const double wall_s = r.times.sum(),
                simulated_s = std::max(r.duration_s, scenario.physics.step_s);
   report.real_time_factor = wall_s > 0.0 ? simulated_s / wall_s : 0.0;
@@ -109,10 +156,13 @@ EpisodeReport RunToFolder(const Scenario& scenario, const RunOptions& options) {
       {"scenario", scenario.name},
       {"seed", scenario.seed},
       {"version", kVersion},
+      {"inputs", inputs},
       {"end", core::EnumName(r.end)},
       {"falls", r.falls},
       {"stuck", r.stuck},
       {"walked_m", r.walked_m},
+      {"commanded_m", report.commanded_m},
+      {"message", report.failure},
       {"state_hash", fmt::format("{:016x}", r.state_hash)},
       {"counters", CountersToJson(r.counters)},
       {"unconverged_physics_steps", r.unconverged_steps},
@@ -122,9 +172,7 @@ EpisodeReport RunToFolder(const Scenario& scenario, const RunOptions& options) {
       {"ground", GroundId(scenario)},
       {"route", RouteToJson(r.route)},
       {"metrics", report.metrics}};
-  core::WriteText(options.folder / "result.json.part", json.dump(2) + "\n");
-  fs::rename(options.folder / "result.json.part",
-             options.folder / "result.json");  // whole or not at all
+  core::WriteText(options.folder / "result.json", analysis::JsonText(json));
   return report;
 }
 

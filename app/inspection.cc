@@ -10,7 +10,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "analysis/json_text.h"
 #include "analysis/terrain_view.h"
+#include "app/config_kinds.h"
+#include "app/robot_warnings.h"
 #include "controller/stand_up.h"
 #include "core/files.h"
 #include "core/robot/inspect.h"
@@ -65,11 +68,14 @@ void AddInfo(CLI::App& app) {
       app.add_subcommand("info", "print what a robot's files say, and what looks wrong");
   info->add_option("robot", *file, "robot YAML")->required();
   info->callback([file] {
-    const auto config = core::ReadConfig<core::RobotConfig>(core::LoadConfig(*file));
+    const auto config = core::ReadConfig<core::RobotConfig>(LoadKind("robot", *file, {}));
     const core::RobotDescription robot = core::ReadRobot(config);
     PrintRobot(robot);
-    for (const std::string& suspicion : core::FindSuspicions(robot))
-      fmt::print("warning: {}\n", suspicion);
+    std::vector<std::string> warnings = core::FindSuspicions(robot);
+    constexpr double kEarth_mps2 = 9.81;
+    for (std::string& warning : WalkWarnings(robot, controller::MpcParams{}, kEarth_mps2))
+      warnings.push_back(std::move(warning));
+    for (const std::string& warning : warnings) fmt::print("warning: {}\n", warning);
   });
 }
 
@@ -95,14 +101,13 @@ terrains::TerrainParams LoadTerrain(const std::string& name, const std::vector<s
                             fmt::format("is neither a file nor a preset; choices: {}{}",
                                         fmt::join(presets, ", "), core::DidYouMean(name, presets)));
   }
-  core::ConfigNode node = core::LoadConfig(file);
-  for (const std::string& assignment : set) core::ApplyOverride(node, assignment);
-  return core::ReadConfig<terrains::TerrainParams>(node);
+  return core::ReadConfig<terrains::TerrainParams>(LoadKind("terrain", file, set));
 }
 
-void PrintTerrain(const terrains::TerrainParams& params, const terrains::Heightfield& ground,
+void PrintTerrain(const terrains::TerrainParams& params, const terrains::Terrain& terrain,
                   const terrains::TerrainStatistics& s, std::size_t rocks) {
   constexpr double kDegrees = 180.0 / std::numbers::pi;
+  const terrains::Heightfield& ground = terrain.ground;
   const double spacing_m = ground.resolution_m(), edge_m = ground.nodes() * spacing_m;
   const terrains::RoughnessParams& asked = params.roughness;
   fmt::print("{}: {:.1f} m of ground, {:.3f} m grid\n", params.name, edge_m, spacing_m);
@@ -120,8 +125,12 @@ void PrintTerrain(const terrains::TerrainParams& params, const terrains::Heightf
     fmt::print("  rocks                  {} (expected {:.0f} +- {:.0f})\n", rocks, expected,
                std::sqrt(expected));
   }
+  fmt::print("  cut to max_slope_rad   {} of {} nodes\n", terrain.cut_nodes,
+             ground.heights_m().size());
   for (const auto& [name, fraction] : s.materials)
     fmt::print("  {:22} {:.1f} %\n", name, 100.0 * fraction);
+  for (const std::string& remark : terrains::HeightmapRemarks(terrain, params))
+    fmt::print("warning: {}\n", remark);
 }
 
 void AddTerrain(CLI::App& app) {
@@ -142,21 +151,24 @@ void AddTerrain(CLI::App& app) {
   terrain->add_flag("--no-pictures", o->no_pictures, "print only, write no files");
   terrain->callback([o] {
     const terrains::TerrainParams params = LoadTerrain(o->name, o->set);
-    const terrains::Heightfield ground = terrains::GenerateTerrain(params, o->seed, 0);
+    const terrains::Terrain made = terrains::MakeTerrain(params, o->seed, 0);
+    const terrains::Heightfield& ground = made.ground;
     const terrains::TerrainStatistics statistics = terrains::MeasureTerrain(ground, params);
-    const std::filesystem::path folder = o->out.empty()
-                                             ? std::filesystem::path("out/terrain") / params.name
-                                             : std::filesystem::path(o->out);
+    const std::filesystem::path folder =
+        o->out.empty() ? std::filesystem::path("out/terrain") / core::FileNameOf(params.name)
+                       : std::filesystem::path(o->out);
     if (!o->no_pictures) analysis::WriteTerrainView(ground, params, statistics, folder);
     if (o->json) {
-      fmt::print("{}\n", analysis::TerrainJson(ground, params, statistics).dump(2));
+      nlohmann::json json = analysis::TerrainJson(ground, params, statistics);
+      json["cut_nodes"] = made.cut_nodes;
+      fmt::print("{}", analysis::JsonText(json));
       return;
     }
     const double edge_m = ground.nodes() * ground.resolution_m();
     const std::size_t rocks =
         terrains::DrawRocks(params.rocks, edge_m, core::Rng(o->seed, 0, core::Stream::kRocks))
             .size();
-    PrintTerrain(params, ground, statistics, rocks);
+    PrintTerrain(params, made, statistics, rocks);
     if (!o->no_pictures) {
       fmt::print("  files                  {}/relief.png, deviogram.png, terrain.json\n",
                  folder.string());

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/qp_recorder.h"
 
+#include <cerrno>
 #include <stdexcept>
 
 #include <Eigen/QR>
 #include <fmt/format.h>
+
+#include "core/files.h"
 
 namespace scoria::app {
 namespace {
@@ -122,7 +125,7 @@ void QpRecorder::File::PutHeader() {
 }
 
 void QpRecorder::File::Check() const {
-  if (!out_) throw std::runtime_error(fmt::format("{}: cannot be written", path_.string()));
+  if (!out_) throw core::FileError(path_, "cannot write", errno);
 }
 
 void QpRecorder::File::Write(const std::vector<double>& record) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/arrays.h"
+#include "app/log_origin.h"
 #include "core/math/so3.h"
 
 namespace scoria::app {
@@ -330,13 +331,10 @@ void Recorder::RecordHash(std::int64_t step, double time_s, std::uint64_t hash) 
 }
 
 FileSink::FileSink(const std::filesystem::path& path, const Scenario& scenario,
-                   const std::string& urdf_text, const core::McapMetadata& extra)
+                   const core::RobotDescription& robot, const core::McapMetadata& extra)
     : writer_(path), params_(scenario.log) {
-  core::McapMetadata metadata = extra;
-  metadata["scenario"] = EffectiveYaml(scenario);
-  metadata["urdf"] = urdf_text;
-  metadata["contact_force_frame"] = "W";
-  writer_.AddMetadata(kScenarioMetadata, metadata);
+  writer_.AddMetadata(kScenarioMetadata, MakeLogMetadata(scenario, robot, extra));
+  if (const auto heightmap = PackHeightmap(scenario)) writer_.AddAttachment(*heightmap);
   for (const Topic& topic : RecordedTopics()) {
     channels_.push_back(writer_.AddChannel(topic.name, topic.type_name, topic.schema_text));
   }

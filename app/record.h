@@ -65,12 +65,12 @@ class Recorder {
 /// Every topic that Recorder writes.
 [[nodiscard]] const std::vector<Topic>& RecordedTopics();
 
-/// Writes an MCAP log whose metadata lets it be re-run: effective scenario, URDF, versions, terrain
-/// statistics.
+/// Writes an MCAP log that can be re-run and drawn on another computer: effective scenario, URDF,
+/// mesh boxes, heightmap, versions, terrain statistics.
 class FileSink final : public MessageSink {
  public:
   FileSink(const std::filesystem::path& path, const Scenario& scenario,
-           const std::string& urdf_text, const core::McapMetadata& extra);
+           const core::RobotDescription& robot, const core::McapMetadata& extra);
   void Write(const Topic& topic, std::int64_t time_ns, std::span<const std::byte> message) override;
   void MarkFall(std::int64_t time_ns) override;
   void Close() { writer_.Close(); }
@@ -87,8 +87,5 @@ class FileSink final : public MessageSink {
   std::deque<Held> held_;                // the time before a possible fall
   std::int64_t write_until_ns_ = -1;
 };
-
-/// Name of the metadata record that holds the scenario.
-inline constexpr const char* kScenarioMetadata = "scoria";
 
 }  // namespace scoria::app

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "app/log_origin.h"
 #include "app/record.h"
-#include "app/verify.h"
 #include "core/log/cdr.h"
 #include "core/math/so3.h"
 
@@ -86,11 +86,15 @@ class Replay {
     }
   }
 
-  ReplayResult Finish() {
+  /// @param problem  what is wrong with the log, if anything.
+  ReplayResult Finish(const std::string& problem) {
     if (result_.steps == 0) {
       throw std::runtime_error(
-          "the log holds no controller inputs from a start on; record it with log.keep=full");
+          problem.empty()
+              ? "the log holds no controller inputs from a start on; record it with log.keep=full"
+              : problem + "; there are no controller inputs before that");
     }
+    result_.file_problem = problem;
     result_.logged = logged_.Finish();
     result_.replayed = replayed_.Finish();
     return result_;
@@ -163,16 +167,14 @@ ReplayResult ReplayLog(const std::filesystem::path& log,
                     "stages with --set controller.estimator.type=inekf and "
                     "controller.contact.source=hierarchy",
                     log.string()));
-  const core::RobotDescription robot = core::MakeRobot(origin.scenario.robot, origin.urdf_text);
+  const core::RobotDescription robot = RobotOf(origin);
   const auto replay = std::make_unique<Replay>(origin.scenario, robot);
   const std::string problem =
       core::McapReader(log).ForEachMessage([&](const core::McapReader::Message& m) {
         replay->Take(m);
         return true;
       });
-  ReplayResult result = replay->Finish();
-  result.file_problem = problem;
-  return result;
+  return replay->Finish(problem);
 }
 
 }  // namespace scoria::app

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "app/config_kinds.h"
+
 namespace scoria::app {
 namespace {
 
@@ -64,9 +66,7 @@ bool NeedsTruthEver(const Scenario& scenario) {
 
 Scenario LoadScenario(const std::filesystem::path& file,
                       const std::vector<std::string>& overrides) {
-  core::ConfigNode node = core::LoadConfig(file);
-  for (const std::string& assignment : overrides) core::ApplyOverride(node, assignment);
-  return core::ReadConfig<Scenario>(node);
+  return core::ReadConfig<Scenario>(LoadKind("scenario", file, overrides));
 }
 
 std::string EffectiveYaml(const Scenario& scenario) {

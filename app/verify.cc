@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
+#include "app/log_origin.h"
 #include "app/record.h"
 #include "app/runner.h"
 #include "core/hash.h"
-#include "terrains/generator.h"
 
 namespace scoria::app {
 namespace {
@@ -22,6 +23,13 @@ struct Logged {
   std::int64_t time_ns;
   std::uint64_t hash;
 };
+
+/// Ctrl-C ended the episode here, which no re-run can know.
+bool IsInterruption(const core::McapReader::Message& m) {
+  if (m.channel.topic != "/scoria/event") return false;
+  const auto event = core::DecodeCdr<core::msg::Event>(m.data);
+  return event.kind == "end" && event.detail == core::EnumName(EpisodeEnd::kInterrupted);
+}
 
 /// The bytes of one message of the log.
 core::Bytes Fetch(const std::filesystem::path& log, const std::string& topic, std::size_t index) {
@@ -42,14 +50,20 @@ class CompareSink final : public MessageSink {
       : log_(log),
         step_s_(scenario.physics.step_s),
         complete_(scenario.log.keep == KeepLog::kFull) {
+    std::optional<std::int64_t> interrupted_ns;
     problem_ = core::McapReader(log).ForEachMessage([&](const core::McapReader::Message& m) {
+      if (IsInterruption(m)) {
+        interrupted_ns = m.time_ns;
+        return true;
+      }
       logged_[m.channel.topic].push_back({m.time_ns, HashBytes(m.data)});
+      last_ns_ = std::max(last_ns_, m.time_ns);
       return true;
     });
-    for (const auto& [topic, messages] : logged_) {
-      for (const Logged& m : messages) last_ns_ = std::max(last_ns_, m.time_ns);
-    }
-    // A cut log may end in the middle of a step: the last step's messages are not all there.
+    whole_ = problem_.empty() && !interrupted_ns;
+    // The step that an interruption names was not run. A cut log may end in the middle of a step:
+    // the last step's messages are not all there.
+    if (interrupted_ns) last_ns_ = *interrupted_ns - 1;
     if (!problem_.empty()) --last_ns_;
   }
 
@@ -92,10 +106,12 @@ class CompareSink final : public MessageSink {
       }
     }
     if (compared_ == 0 && difference_.empty())
-      difference_ = "the log has no message that could be compared";
+      difference_ = whole_ ? "the log has no message that could be compared"
+                           : "the log ends before a whole step that could be compared";
     const bool only_cut = problem_.empty() || problem_.find("cut off at byte") != std::string::npos;
     if (!only_cut && difference_.empty()) difference_ = problem_;
-    return {difference_.empty(), compared_, difference_, problem_};
+    return {difference_.empty(), compared_, whole_, 1e-9 * static_cast<double>(last_ns_),
+            difference_,         problem_};
   }
 
  private:
@@ -126,32 +142,18 @@ class CompareSink final : public MessageSink {
   bool complete_;
   std::map<std::string, std::vector<Logged>> logged_;
   std::map<std::string, std::size_t> next_;
-  std::int64_t last_ns_ = 0;
+  bool whole_ = true;          // neither cut off nor interrupted
+  std::int64_t last_ns_ = -1;  // of what is compared
   std::uint64_t compared_ = 0;
   std::string difference_, problem_;
 };
 
 }  // namespace
 
-LogOrigin ReadLogOrigin(const std::filesystem::path& log,
-                        const std::vector<std::string>& overrides) {
-  const auto all = core::McapReader(log).ReadMetadata();
-  const auto found = all.find(kScenarioMetadata);
-  if (found == all.end() || !found->second.contains("scenario") ||
-      !found->second.contains("urdf")) {
-    throw std::runtime_error(fmt::format(
-        "{}: holds no scenario; only logs that scoria wrote can be re-run or drawn", log.string()));
-  }
-  core::ConfigNode node = core::ParseConfig(found->second.at("scenario"), log.string());
-  for (const std::string& assignment : overrides) core::ApplyOverride(node, assignment);
-  return {core::ReadConfig<Scenario>(node), found->second.at("urdf")};
-}
-
 VerifyResult VerifyLog(const std::filesystem::path& log) {
   const LogOrigin origin = ReadLogOrigin(log);
-  const core::RobotDescription robot = core::MakeRobot(origin.scenario.robot, origin.urdf_text);
-  const terrains::Heightfield ground =
-      terrains::GenerateTerrain(origin.scenario.terrain, origin.scenario.seed, 0);
+  const core::RobotDescription robot = RobotOf(origin);
+  const terrains::Heightfield ground = GroundOf(origin);
   CompareSink sink(log, origin.scenario);
   std::atomic<bool> done = false;
   EpisodeSinks sinks;

@@ -19,21 +19,21 @@ using core::Stream;
 constexpr double kBlend_m = 0.2;  // width of a patch's edge
 constexpr double kWhole = 255.0;  // a full share of a Cover
 
-Grid BareGround(const TerrainParams& params) {
+/// A measured ground, or a level one.
+Heightmap BareGround(const TerrainParams& params) {
   if (!params.heightmap.file.empty()) return ReadHeightmap(params.heightmap, params.resolution_m);
-  return Grid(static_cast<int>(std::lround(params.size_m / params.resolution_m)),
-              params.resolution_m);
+  return {
+      Grid(static_cast<int>(std::lround(params.size_m / params.resolution_m)), params.resolution_m),
+      std::nullopt};
 }
 
-/// Relief larger than roughness, on level ground.
-Grid MakeForms(const TerrainParams& params, std::uint64_t seed, std::uint32_t episode) {
-  Grid forms = BareGround(params);
+/// Relief larger than roughness.
+void AddForms(Grid& forms, const TerrainParams& params, std::uint64_t seed, std::uint32_t episode) {
   AddCells(forms, params.cells, Rng(seed, episode, Stream::kCells));
   AddRopes(forms, params.ropes, Rng(seed, episode, Stream::kRopes));
   AddGullies(forms, params.gullies, params.slope_azimuth_rad + std::numbers::pi,
              Rng(seed, episode, Stream::kGullies));
   AddCraters(forms, params.craters, Rng(seed, episode, Stream::kCraters));
-  return forms;
 }
 
 /// Where ripples lie: on their material first, then around it; without one, anywhere.
@@ -130,9 +130,25 @@ std::string TerrainParams::Problem() const {
   return "";
 }
 
+std::vector<std::string> HeightmapRemarks(const Terrain& terrain, const TerrainParams& params) {
+  std::vector<std::string> out;
+  if (terrain.remark) out.push_back(*terrain.remark);
+  if (!params.heightmap.file.empty() && terrain.cut_nodes > 0) {
+    out.push_back(fmt::format(
+        "{} of {} nodes of the heightmap, steeper than max_slope_rad {}, are lowered to it",
+        terrain.cut_nodes, terrain.ground.heights_m().size(), params.max_slope_rad));
+  }
+  return out;
+}
+
 Heightfield GenerateTerrain(const TerrainParams& params, std::uint64_t seed,
                             std::uint32_t episode) {
-  Grid heights = MakeForms(params, seed, episode);
+  return MakeTerrain(params, seed, episode).ground;
+}
+
+Terrain MakeTerrain(const TerrainParams& params, std::uint64_t seed, std::uint32_t episode) {
+  auto [heights, remark] = BareGround(params);
+  AddForms(heights, params, seed, episode);
   Rng patch_rng(seed, episode, Stream::kMaterial);
   std::vector<Grid> fields;
   for (const PatchParams& patch : params.patches) {
@@ -166,15 +182,16 @@ Heightfield GenerateTerrain(const TerrainParams& params, std::uint64_t seed,
   }
 
   for (double& z : heights.values) z *= params.roughness_scale;
-  LimitSlope(heights, params.max_slope_rad);
+  const std::size_t cut_nodes = LimitSlope(heights, params.max_slope_rad);
   const Vec2 uphill = std::tan(params.slope_rad) *
                       Vec2(std::cos(params.slope_azimuth_rad), std::sin(params.slope_azimuth_rad));
   for (int row = 0; row < heights.nodes; ++row) {
     for (int column = 0; column < heights.nodes; ++column)
       heights.at(column, row) += uphill.dot(heights.Position(column, row));
   }
-  return Heightfield(heights.nodes, heights.spacing_m, std::move(heights.values), params.substrate,
-                     std::move(covers));
+  return {Heightfield(heights.nodes, heights.spacing_m, std::move(heights.values), params.substrate,
+                      std::move(covers)),
+          cut_nodes, std::move(remark)};
 }
 
 TerrainStatistics MeasureTerrain(const Heightfield& ground, const TerrainParams& params) {

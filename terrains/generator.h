@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,9 +12,25 @@
 
 namespace scoria::terrains {
 
+/// A ground and how it was made.
+struct Terrain {
+  Heightfield ground;
+  std::size_t cut_nodes = 0;          // lowered to max_slope_rad
+  std::optional<std::string> remark;  // on a heightmap's tile
+};
+
+/// What of a measured ground is not as its file has it; one sentence each. Generated relief is cut
+/// by design.
+[[nodiscard]] std::vector<std::string> HeightmapRemarks(const Terrain& terrain,
+                                                        const TerrainParams& params);
+
 /// The ground of one episode: base plane, large forms, self-affine roughness, ripples, rocks, and
 /// the materials that lie on it. The same arguments give the same bits.
 /// Errors: core::ConfigError of a heightmap that cannot be used.
+[[nodiscard]] Terrain MakeTerrain(const TerrainParams& params, std::uint64_t seed,
+                                  std::uint32_t episode);
+
+/// The ground alone of MakeTerrain.
 [[nodiscard]] Heightfield GenerateTerrain(const TerrainParams& params, std::uint64_t seed,
                                           std::uint32_t episode);
 

@@ -192,13 +192,21 @@ struct CellParams {
 struct HeightmapParams {
   std::filesystem::path file;
   double black_m = 0.0, white_m = 1.0;
+  double tile_m = 0.0;
+  std::optional<std::array<double, 2>> centre_m;
   template <class Archive>
   void Serialize(Archive& a) {
     a.Field("file", file,
-            {.doc = ".png, 16-bit grey, north up, with resolution_m of the terrain; or .asc, ESRI "
-                    "ASCII grid in metres, with its own cell size. Square"});
+            {.doc = "PNG, 16-bit grey, north up, with resolution_m of the terrain; or ESRI ASCII "
+                    "grid in metres, its cells square and 0.005 to 0.5 m wide, else resampled to "
+                    "resolution_m"});
     a.Field("black_m", black_m, {.doc = "height of a PNG's value 0"});
     a.Field("white_m", white_m, {.doc = "height of a PNG's value 65535"});
+    a.Field("tile_m", tile_m,
+            {.min = 0.0, .max = 1e6, .doc = "edge of the square tile; 0: the largest that fits"});
+    a.Field("centre_m", centre_m,
+            {.doc = "east, north of the tile's centre as the grid's xllcorner, yllcorner count (a "
+                    "PNG: from its south-west corner); none: the middle of the map"});
   }
 };
 

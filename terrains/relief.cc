@@ -133,7 +133,8 @@ Grid CoverHighest(const Grid& field, double fraction, double blend_m) {
 
 Grid SoftenEdges(const Grid& presence) { return BoxBlur(presence, 1); }
 
-void LimitSlope(Grid& heights, double max_slope_rad) {
+std::size_t LimitSlope(Grid& heights, double max_slope_rad) {
+  const std::vector<double> before = heights.values;
   const double step_m = std::tan(max_slope_rad) * heights.spacing_m;
   const int n = heights.nodes;
   const auto lower = [&](int c, int r, int c2, int r2) {
@@ -146,6 +147,9 @@ void LimitSlope(Grid& heights, double max_slope_rad) {
   for (int r = n - 1; r >= 0; --r) {
     for (int c = n - 1; c >= 0; --c) lower(c, r, c + 1, r), lower(c, r, c, r + 1);
   }
+  std::size_t lowered = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) lowered += heights.values[i] < before[i] ? 1 : 0;
+  return lowered;
 }
 
 }  // namespace scoria::terrains

@@ -23,7 +23,8 @@ void AddRipples(Grid& heights, const RippleParams& params, const Grid& presence)
 /// Ramps of three nodes in place of steps.
 [[nodiscard]] Grid SoftenEdges(const Grid& presence);
 
-/// Lowers peaks until no two neighbours differ by more than the slope allows.
-void LimitSlope(Grid& heights, double max_slope_rad);
+/// Lowers peaks until no two neighbours differ by more than the slope allows. @returns how many
+/// nodes were lowered.
+std::size_t LimitSlope(Grid& heights, double max_slope_rad);
 
 }  // namespace scoria::terrains

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -13,6 +15,7 @@
 
 #include "analysis/estimation_metrics.h"
 #include "analysis/video/scene.h"
+#include "core/files.h"
 #include "core/math/so3.h"
 
 namespace scoria::analysis {
@@ -90,9 +93,12 @@ void Text(cv::Mat& image, const std::string& text, int x, int y, double scale = 
 /// Which feet bore weight over the last two seconds, FL FR HL HR from the top, now at the right.
 void DrawGaitDiagram(cv::Mat& image, std::span<const core::LogRow> rows, std::size_t now) {
   constexpr double kSpan_s = 2.0;
-  constexpr int kWidth = 260, kRow = 16, kMargin = 16;
+  constexpr int kWidth = 260, kRow = 16, kMargin = 16, kNames = 40;
+  const bool fits =
+      image.cols >= kWidth + kNames + 2 * kMargin && image.rows >= 4 * kRow + 4 * kMargin;
+  if (!fits) return;
   const int left = image.cols - kWidth - kMargin, top = image.rows - 4 * kRow - kMargin - 8;
-  cv::Mat panel = image(cv::Rect(left - 40, top - 6, kWidth + 48, 4 * kRow + 12));
+  cv::Mat panel = image(cv::Rect(left - kNames, top - 6, kWidth + 48, 4 * kRow + 12));
   panel = panel * 0.45;
   for (std::size_t leg = 0; leg < 4; ++leg) {
     const int y = top + kRow * static_cast<int>(leg);
@@ -131,6 +137,63 @@ cv::Mat DrawImage(Scene& scene, const Frame& frame, std::span<const core::LogRow
   return image;
 }
 
+/// A video that takes its name once it is whole.
+class VideoFile {
+ public:
+  VideoFile(const VideoOptions& options, cv::Size size)
+      : file_(options.file), draft_(file_.string() + ".part.mp4") {
+    if (!writer_.open(draft_.string(), cv::CAP_FFMPEG, cv::VideoWriter::fourcc('a', 'v', 'c', '1'),
+                      options.fps, size, true)) {
+      throw std::runtime_error(fmt::format("{}: cannot open an H.264 encoder", file_.string()));
+    }
+  }
+  ~VideoFile() {
+    writer_.release();
+    std::error_code ignored;
+    std::filesystem::remove(draft_, ignored);  // gone already where all went well
+  }
+  VideoFile(const VideoFile&) = delete;
+  VideoFile& operator=(const VideoFile&) = delete;
+
+  void Write(const cv::Mat& image) {
+    writer_.write(image);
+    ++written_;
+  }
+
+  /// The encoder tells of no error: the frames are counted in what it wrote.
+  void Close() {
+    writer_.release();
+    int whole = 0;
+    cv::VideoCapture reader;
+    if (std::filesystem::exists(draft_) && reader.open(draft_.string(), cv::CAP_FFMPEG)) {
+      while (reader.grab()) ++whole;
+    }
+    if (whole != written_) {
+      std::error_code error;
+      const auto space = std::filesystem::space(file_.parent_path() / ".", error);
+      constexpr std::uintmax_t kLittle = 1 << 20;
+      const bool full = !error && space.available < kLittle;
+      throw core::FileError(
+          file_,
+          fmt::format("the video could not be written whole, {} of {} frames", whole, written_),
+          full ? ENOSPC : 0);
+    }
+    if (std::rename(draft_.c_str(), file_.c_str()) != 0)
+      throw core::FileError(file_, "cannot write", errno);
+  }
+
+ private:
+  std::filesystem::path file_, draft_;
+  cv::VideoWriter writer_;
+  int written_ = 0;
+};
+
+void WriteFrame(const std::filesystem::path& file, const cv::Mat& image) {
+  std::vector<uchar> png;
+  cv::imencode(".png", image, png);
+  core::WriteText(file, std::string(png.begin(), png.end()));
+}
+
 }  // namespace
 
 std::string RenderStill(std::span<const core::LogRow> rows, const core::RobotDescription& robot,
@@ -145,18 +208,25 @@ std::string RenderStill(std::span<const core::LogRow> rows, const core::RobotDes
   return {bytes.begin(), bytes.end()};
 }
 
+void CheckVideoFile(const std::filesystem::path& file) {
+  if (file.extension() != ".mp4") {
+    throw std::runtime_error(fmt::format("{}: ends in \"{}\"; a video is an .mp4 file",
+                                         file.string(), file.extension().string()));
+  }
+  const std::filesystem::path folder = file.parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder))
+    throw std::runtime_error(
+        fmt::format("{}: there is no folder {}", file.string(), folder.string()));
+}
+
 void RenderVideo(std::span<const core::LogRow> rows, const core::RobotDescription& robot,
                  const terrains::Heightfield& ground, const VideoOptions& options) {
+  CheckVideoFile(options.file);
   if (rows.empty()) throw std::runtime_error("video: the log has no rows in this span");
   Scene scene(robot, ground, options.width_px, options.height_px);
-  cv::VideoWriter writer;
   const cv::Size size(options.width_px, options.height_px);
-  if (!writer.open(options.file.string(), cv::CAP_FFMPEG,
-                   cv::VideoWriter::fourcc('a', 'v', 'c', '1'), options.fps, size, true)) {
-    throw std::runtime_error(
-        fmt::format("{}: cannot open an H.264 encoder", options.file.string()));
-  }
-  if (!options.frames.empty()) std::filesystem::create_directories(options.frames);
+  VideoFile video(options, size);
+  if (!options.frames.empty()) core::CreateFolders(options.frames);
 
   Camera camera;
   const double dt_s = 1.0 / options.fps, start_s = rows.front().time_s,
@@ -168,12 +238,13 @@ void RenderVideo(std::span<const core::LogRow> rows, const core::RobotDescriptio
     Frame frame = MakeFrame(rows[now], rows.first(now));
     camera.Update(rows[now], dt_s, frame);
     const cv::Mat image = DrawImage(scene, frame, rows, now, options);
-    writer.write(image);
+    video.Write(image);
     if (!options.frames.empty() && k % (options.frame_every_s * options.fps) == 0) {
-      cv::imwrite((options.frames / fmt::format("frame_{:05d}.png", k)).string(), image);
+      WriteFrame(options.frames / fmt::format("frame_{:05d}.png", k), image);
     }
     if (options.on_progress) options.on_progress(static_cast<double>(k) / frames);
   }
+  video.Close();
 }
 
 }  // namespace scoria::analysis

@@ -21,9 +21,16 @@ struct VideoOptions {
   std::function<void(double share)> on_progress;
 };
 
+/// Edges of a frame: below, its text is not legible; above, H.264 players refuse it.
+inline constexpr int kSmallestFrame_px = 64, kLargestFrame_px = 4096;
+
+/// Errors: std::runtime_error that says what is wrong with the file's folder or extension.
+void CheckVideoFile(const std::filesystem::path& file);
+
 /// Renders rows of one log: robot, ground, foot forces, planned footholds, path walked, and a text
-/// overlay with time, speed and gait diagram. Errors: std::runtime_error if no encoder or no OpenGL
-/// context is at hand.
+/// overlay with time, speed and gait diagram. The file is there whole, as read back, or not at all.
+/// Errors: std::runtime_error if no encoder or no OpenGL context is at hand; as CheckVideoFile;
+/// core::FileError if the disk refuses the video.
 void RenderVideo(std::span<const core::LogRow> rows, const core::RobotDescription& robot,
                  const terrains::Heightfield& ground, const VideoOptions& options);
 

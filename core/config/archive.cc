@@ -5,6 +5,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/text.h"
+
 namespace scoria::core::config_detail {
 namespace {
 
@@ -18,12 +20,12 @@ const std::string& ScalarText(const ConfigNode& node, const std::string& path,
   return node.scalar;
 }
 
-std::string Shown(const ConfigNode& node) {
+std::string ShownValue(const ConfigNode& node) {
   switch (node.kind) {
     case ConfigNode::Kind::kNull:
       return "an empty value";
     case ConfigNode::Kind::kScalar:
-      return fmt::format("\"{}\"", node.scalar);
+      return fmt::format("\"{}\"", Shown(node.scalar));
     case ConfigNode::Kind::kSequence:
       return "a list";
     case ConfigNode::Kind::kMap:
@@ -35,7 +37,8 @@ std::string Shown(const ConfigNode& node) {
 void CheckRange(double value, const ConfigNode& node, const std::string& path,
                 const FieldRule& rule) {
   if (!(value >= rule.min && value <= rule.max)) {
-    throw ConfigError(node.origin, path, fmt::format("{} is outside {}", node.scalar, Range(rule)));
+    throw ConfigError(node.origin, path,
+                      fmt::format("{} is outside {}", Shown(node.scalar), Range(rule)));
   }
 }
 
@@ -90,12 +93,12 @@ void ThrowUnknownChoice(const ConfigNode& node, const std::string& path,
                         std::vector<std::string> choices) {
   std::sort(choices.begin(), choices.end());
   throw ConfigError(node.origin, path,
-                    fmt::format("unknown {}; choices: {}{}", Shown(node), fmt::join(choices, ", "),
-                                DidYouMean(node.scalar, choices)));
+                    fmt::format("unknown {}; choices: {}{}", ShownValue(node),
+                                fmt::join(choices, ", "), DidYouMean(node.scalar, choices)));
 }
 
 void ThrowKind(const ConfigNode& node, const std::string& path, std::string_view expected) {
-  throw ConfigError(node.origin, path, fmt::format("{} is not {}", Shown(node), expected));
+  throw ConfigError(node.origin, path, fmt::format("{} is not {}", ShownValue(node), expected));
 }
 
 void ThrowLength(const ConfigNode& node, const std::string& path, std::size_t want) {

@@ -27,7 +27,8 @@
 /// and that drives reading (ReadConfig), writing (WriteConfig) and documentation (DescribeConfig).
 /// Supported: bool, int, uint64_t, double, string, path (relative to the file that names it), enum
 /// with EnumNames(), Vec3, array, vector, optional, struct with Serialize, and std::variant of
-/// structs that each have kType, chosen by the key `type`.
+/// structs that each have kType, chosen by the key `type`. A ConfigNode takes any value as it
+/// stands, a ConfigMap any map.
 namespace scoria::core {
 
 struct FieldRule {
@@ -45,6 +46,11 @@ struct FieldInfo {
   std::vector<std::string> choices;  // of an enum
   std::vector<FieldInfo>
       children;  // of a struct; of a variant one child per alternative; of a list its element
+};
+
+/// A map that is read elsewhere, as overrides of another file's keys.
+struct ConfigMap {
+  ConfigNode node;
 };
 
 template <class T>
@@ -205,6 +211,11 @@ void ConfigReader::Read(const ConfigNode& node, const std::string& path, T& valu
     value = static_cast<T>(d::ParseInt(node, path, rule));
   } else if constexpr (std::is_floating_point_v<T>) {
     value = d::ParseDouble(node, path, rule);
+  } else if constexpr (std::is_same_v<T, ConfigNode>) {
+    value = node;
+  } else if constexpr (std::is_same_v<T, ConfigMap>) {
+    if (node.kind != ConfigNode::Kind::kMap) d::ThrowKind(node, path, "a map");
+    value.node = node;
   } else if constexpr (std::is_same_v<T, std::string>) {
     value = d::ParseString(node, path);
   } else if constexpr (std::is_same_v<T, std::filesystem::path>) {
@@ -276,6 +287,10 @@ ConfigNode ConfigWriter::Write(T& value) {
     return d::Scalar(fmt::to_string(value));
   } else if constexpr (std::is_floating_point_v<T>) {
     return d::Scalar(d::FormatDouble(value));
+  } else if constexpr (std::is_same_v<T, ConfigNode>) {
+    return value;
+  } else if constexpr (std::is_same_v<T, ConfigMap>) {
+    return value.node;
   } else if constexpr (std::is_same_v<T, std::string>) {
     return d::Scalar(value);
   } else if constexpr (std::is_same_v<T, std::filesystem::path>) {
@@ -334,7 +349,10 @@ template <class T>
 FieldInfo ConfigDescriber::Describe(T& value) {
   namespace d = config_detail;
   FieldInfo info;
-  if constexpr (std::is_same_v<T, bool>) {
+  if constexpr (std::is_same_v<T, ConfigNode> || std::is_same_v<T, ConfigMap>) {
+    info.kind = std::is_same_v<T, ConfigNode> ? "any" : "map";
+    return info;
+  } else if constexpr (std::is_same_v<T, bool>) {
     info.kind = "bool";
   } else if constexpr (std::is_integral_v<T>) {
     info.kind = "integer";

@@ -2,12 +2,14 @@
 #include "core/config/node.h"
 
 #include <algorithm>
-#include <fstream>
 #include <numeric>
 #include <sstream>
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
+
+#include "core/config/source.h"
+#include "core/text.h"
 
 namespace scoria::core {
 namespace {
@@ -19,57 +21,99 @@ Origin OriginOf(const YAML::Mark& mark, const std::string& file) {
   return {file, mark.line + 1, mark.column + 1};  // yaml-cpp counts from 0
 }
 
-ConfigNode Convert(const YAML::Node& yaml, const std::string& file, const std::string& path,
-                   int depth = 0) {
-  constexpr int kDeepest = 50;
-  if (depth > kDeepest)
-    throw ConfigError(OriginOf(yaml.Mark(), file), path, "is nested too deeply or contains itself");
-  ConfigNode node;
-  node.origin = OriginOf(yaml.Mark(), file);
-  switch (yaml.Type()) {
-    case YAML::NodeType::Undefined:
-    case YAML::NodeType::Null:
-      break;
-    case YAML::NodeType::Scalar:
-      node.kind = ConfigNode::Kind::kScalar;
-      node.scalar = yaml.Scalar();
-      break;
-    case YAML::NodeType::Sequence:
-      node.kind = ConfigNode::Kind::kSequence;
-      for (std::size_t i = 0; i < yaml.size(); ++i) {
-        node.items.push_back(Convert(yaml[i], file, fmt::format("{}[{}]", path, i), depth + 1));
-      }
-      break;
-    case YAML::NodeType::Map:
-      node.kind = ConfigNode::Kind::kMap;
-      for (const auto& pair : yaml) {
-        const std::string key = pair.first.Scalar();
-        const std::string key_path = path.empty() ? key : path + "." + key;
-        const Origin key_origin = OriginOf(pair.first.Mark(), file);
-        const auto first = std::find_if(node.entries.begin(), node.entries.end(),
-                                        [&](const auto& e) { return e.key == key; });
-        if (first != node.entries.end()) {
-          const int first_line = first->key_origin.line;
-          throw ConfigError(key_origin, key_path,
-                            fmt::format("given twice, first in line {}", first_line));
-        }
-        ConfigNode value = Convert(pair.second, file, key_path, depth + 1);
-        if (value.origin.line == 0) value.origin = key_origin;  // an empty value has no mark
-        node.entries.push_back({key, key_origin, std::move(value)});
-      }
-      break;
+/// Lays the map, or the maps, of a merge key `<<` under the keys of `node`; the first of equals
+/// counts. Source: YAML 1.1, "Merge Key Language-Independent Type".
+void MergeUnder(ConfigNode& node, const ConfigNode& merged) {
+  if (merged.kind == ConfigNode::Kind::kSequence) {
+    for (const ConfigNode& item : merged.items) MergeUnder(node, item);
+    return;
   }
-  return node;
+  if (merged.kind != ConfigNode::Kind::kMap) {
+    throw ConfigError(merged.origin, "<<",
+                      "merges maps of this file, as <<: *anchor; use base: for a file");
+  }
+  for (const ConfigNode::Entry& entry : merged.entries) {
+    if (node.Find(entry.key) == nullptr) node.entries.push_back(entry);
+  }
 }
 
-ConfigNode ParseYaml(const std::string& text, const std::string& name) {
+/// Turns a document of yaml-cpp into our tree.
+class YamlConverter {
+ public:
+  explicit YamlConverter(std::string file) : file_(std::move(file)) {}
+
+  ConfigNode Convert(const YAML::Node& yaml, const std::string& path, int depth = 0) {
+    ConfigNode node;
+    node.origin = OriginOf(yaml.Mark(), file_);
+    CheckExtent(node.origin, path, depth);
+    switch (yaml.Type()) {
+      case YAML::NodeType::Undefined:
+      case YAML::NodeType::Null:
+        break;
+      case YAML::NodeType::Scalar:
+        node.kind = ConfigNode::Kind::kScalar;
+        node.scalar = yaml.Scalar();
+        break;
+      case YAML::NodeType::Sequence:
+        node.kind = ConfigNode::Kind::kSequence;
+        for (std::size_t i = 0; i < yaml.size(); ++i)
+          node.items.push_back(Convert(yaml[i], fmt::format("{}[{}]", path, i), depth + 1));
+        break;
+      case YAML::NodeType::Map:
+        node.kind = ConfigNode::Kind::kMap;
+        ConvertMap(yaml, path, depth, node);
+        break;
+    }
+    return node;
+  }
+
+ private:
+  void CheckExtent(const Origin& origin, const std::string& path, int depth) {
+    constexpr int kDeepest = 50, kMost = 1'000'000;
+    if (depth > kDeepest)
+      throw ConfigError(origin, path, "is nested too deeply or contains itself");
+    if (++count_ > kMost)
+      throw ConfigError(origin, path,
+                        fmt::format("has more than {} values, aliases included", kMost));
+  }
+
+  void ConvertMap(const YAML::Node& yaml, const std::string& path, int depth, ConfigNode& node) {
+    std::vector<ConfigNode> merged;
+    for (const auto& pair : yaml) {
+      const std::string key = pair.first.Scalar();
+      const std::string key_path = path.empty() ? key : path + "." + key;
+      const Origin key_origin = OriginOf(pair.first.Mark(), file_);
+      const auto first = std::find_if(node.entries.begin(), node.entries.end(),
+                                      [&](const auto& e) { return e.key == key; });
+      if (first != node.entries.end()) {
+        throw ConfigError(key_origin, key_path,
+                          fmt::format("given twice, first in line {}", first->key_origin.line));
+      }
+      ConfigNode value = Convert(pair.second, key_path, depth + 1);
+      if (value.origin.line == 0) value.origin = key_origin;  // an empty value has no mark
+      if (key == "<<" && pair.first.Tag() == "?") {
+        merged.push_back(std::move(value));
+      } else {
+        node.entries.push_back({key, key_origin, std::move(value)});
+      }
+    }
+    for (const ConfigNode& under : merged) MergeUnder(node, under);
+  }
+
+  std::string file_;
+  int count_ = 0;
+};
+
+ConfigNode ParseYaml(const std::string& text, const Origin& origin) {
+  CheckUtf8(text, origin);
+  const std::string& name = origin.file;
   try {
     const std::vector<YAML::Node> documents = YAML::LoadAll(text);
     if (documents.size() > 1)
       throw ConfigError({name, 0, 0}, "", "holds more than one YAML document");
-    return documents.empty() ? ConfigNode{} : Convert(documents.front(), name, "");
+    return documents.empty() ? ConfigNode{} : YamlConverter(name).Convert(documents.front(), "");
   } catch (const YAML::Exception& e) {
-    throw ConfigError(OriginOf(e.mark, name), "", "not valid YAML: " + e.msg);
+    throw ConfigError(OriginOf(e.mark, name), "", "not valid YAML: " + Shown(e.msg, 200));
   }
 }
 
@@ -101,14 +145,7 @@ ConfigNode LoadWithBases(const fs::path& file, const Origin& asked_by,
     throw ConfigError(asked_by, "base", fmt::format("{} includes itself", normal.string()));
   }
   chain.push_back(normal);
-  std::ifstream in(normal);
-  if (!in) {
-    const std::string rule = fmt::format("cannot read the file {}", normal.string());
-    throw ConfigError(asked_by, asked_by.line > 0 ? "base" : "", rule);
-  }
-  std::stringstream text;
-  text << in.rdbuf();
-  ConfigNode node = ParseYaml(text.str(), normal.string());
+  ConfigNode node = ParseYaml(ReadYamlText(normal, asked_by), {normal.string(), 0, 0});
   ResolveBases(node, chain);
   return node;
 }
@@ -146,6 +183,8 @@ bool NeedsQuotes(const std::string& s) {
   return s.find_first_of("\n\"#") != std::string::npos || s.find(": ") != std::string::npos ||
          s.back() == ' ' || s.back() == ':';
 }
+
+constexpr std::size_t kLongestRule = 500;  // "known here" lists up to 350 bytes of keys
 
 std::string OpenUnlessEmpty(std::string_view part) {
   return part.empty() ? "" : fmt::format("{}: ", part);
@@ -192,8 +231,8 @@ std::string Origin::ToString() const {
 }
 
 ConfigError::ConfigError(const Origin& origin, std::string_view key, std::string_view rule)
-    : std::runtime_error(OpenUnlessEmpty(origin.ToString()) + OpenUnlessEmpty(key) +
-                         std::string(rule)) {}
+    : std::runtime_error(OpenUnlessEmpty(origin.ToString()) + OpenUnlessEmpty(Shown(key, 120)) +
+                         Shown(rule, kLongestRule)) {}
 
 const ConfigNode* ConfigNode::Find(std::string_view key) const {
   for (const Entry& entry : entries) {
@@ -211,7 +250,7 @@ ConfigNode LoadConfig(const fs::path& file) {
 }
 
 ConfigNode ParseConfig(const std::string& text, const std::string& name) {
-  ConfigNode node = ParseYaml(text, name);
+  ConfigNode node = ParseYaml(text, {name, 0, 0});
   ResolveBases(node, {fs::path(name).lexically_normal()});
   return node;
 }
@@ -266,7 +305,7 @@ void MergeConfig(ConfigNode& onto, const ConfigNode& over) {
 }
 
 void ApplyOverride(ConfigNode& root, const std::string& assignment) {
-  ApplyAssignment(root, assignment, {"--set " + assignment, 0, 0, true});
+  ApplyAssignment(root, assignment, {"--set " + Shown(assignment, 120), 0, 0, true});
 }
 
 void ApplyAssignment(ConfigNode& root, const std::string& assignment, const Origin& origin) {
@@ -274,7 +313,7 @@ void ApplyAssignment(ConfigNode& root, const std::string& assignment, const Orig
   if (equals == std::string::npos || equals == 0) {
     throw ConfigError(origin, "", "must read key.subkey=value");
   }
-  ConfigNode value = ParseYaml(assignment.substr(equals + 1), origin.file);
+  ConfigNode value = ParseYaml(assignment.substr(equals + 1), origin);
   SetOrigin(value, origin);
   ResolveBases(value, {});
   SetAt(root, assignment.substr(0, equals), std::move(value));
@@ -302,6 +341,8 @@ std::string EmitYaml(const ConfigNode& node) {
 }
 
 std::string DidYouMean(std::string_view word, const std::vector<std::string>& choices) {
+  constexpr std::size_t kLongestWord = 100;
+  if (word.size() > kLongestWord) return "";
   const std::string* best = nullptr;
   int best_distance = 1 + static_cast<int>(std::max<std::size_t>(2, word.size() / 3));
   for (const std::string& choice : choices) {

@@ -50,7 +50,8 @@ struct ConfigNode::Entry {
 };
 
 /// Reads a YAML file. In any map, `base: other.yaml` (relative to the file that says so) is loaded
-/// first and the map's other keys override it deeply. Errors: ConfigError on a missing file, bad
+/// first and the map's other keys override it deeply; `<<: *anchor` merges as YAML 1.1 does, key by
+/// key. Errors: ConfigError on a missing file or one of another kind, text that is not UTF-8, bad
 /// YAML, a duplicate key, a circular base.
 [[nodiscard]] ConfigNode LoadConfig(const std::filesystem::path& file);
 

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,12 +18,18 @@ namespace scoria::core {
 
 using McapMetadata = std::map<std::string, std::string>;
 
+/// A file that travels in a log.
+struct McapAttachment {
+  std::string name, media_type;
+  Bytes data;
+};
+
 /// Writes an MCAP file of the `ros2` profile: CDR messages under ros2msg schemas in zstd chunks
 /// with index. Every chunk is flushed when it is full, so a killed process loses at most the last
 /// one. Source: [MCAP] specification, version 0.
 class McapWriter {
  public:
-  /// Errors: std::runtime_error if the file cannot be opened or written.
+  /// Errors, here and below: FileError if the file cannot be opened or written.
   explicit McapWriter(const std::filesystem::path& path, std::size_t chunk_bytes = 1 << 20);
   ~McapWriter();
   McapWriter(const McapWriter&) = delete;
@@ -34,6 +41,7 @@ class McapWriter {
                            const std::string& schema_text);
   void Write(std::uint16_t channel, std::int64_t time_ns, std::span<const std::byte> message);
   void AddMetadata(const std::string& name, const McapMetadata& metadata);
+  void AddAttachment(const McapAttachment& attachment);
 
   /// Writes the index and ends the file; called by the destructor, where errors are lost.
   void Close();
@@ -58,6 +66,10 @@ class McapWriter {
     std::uint64_t offset, length;
     std::string name;
   };
+  struct AttachmentIndex {
+    std::uint64_t offset, length, data_size;
+    std::string name, media_type;
+  };
 
   void Emit(const Bytes& bytes);
   void FlushChunk();
@@ -74,6 +86,7 @@ class McapWriter {
   std::vector<Channel> channels_;  // number = index
   std::vector<ChunkIndex> chunk_indexes_;
   std::vector<MetadataIndex> metadata_indexes_;
+  std::vector<AttachmentIndex> attachment_indexes_;
   bool closed_ = false;
 };
 
@@ -99,7 +112,15 @@ class McapReader {
   std::string ForEachMessage(const OnMessage& on_message);
 
   /// Metadata records by name, from the whole file; chunks are skipped unread.
+  /// Errors: std::runtime_error if a record is damaged.
   [[nodiscard]] std::map<std::string, McapMetadata> ReadMetadata() const;
+
+  /// The first attachment of that name, if any.
+  /// Errors: std::runtime_error if it is damaged.
+  [[nodiscard]] std::optional<McapAttachment> ReadAttachment(const std::string& name) const;
+
+  /// False where the file ends before its data do.
+  [[nodiscard]] bool IsWhole() const;
 
  private:
   std::filesystem::path path_;

@@ -46,6 +46,7 @@ class Take {
     return map;
   }
   [[nodiscard]] bool empty() const { return bytes_.empty(); }
+  [[nodiscard]] std::span<const std::byte> rest() const { return bytes_; }
 
  private:
   std::span<const std::byte> bytes_;
@@ -53,11 +54,16 @@ class Take {
 
 Bytes Decompress(const std::string& compression, std::span<const std::byte> packed,
                  std::uint64_t size) {
-  constexpr std::uint64_t kLargestChunk = std::uint64_t{1} << 32;
-  if (size > kLargestChunk) throw std::runtime_error("chunk claims more than 4 GiB");
+  constexpr std::uint64_t kLargestChunk = std::uint64_t{1} << 28;
+  if (size > kLargestChunk) throw std::runtime_error("chunk claims more than 256 MiB");
   if (compression.empty()) {
     if (size != packed.size()) throw std::runtime_error("plain chunk has a wrong size");
     return {packed.begin(), packed.end()};
+  }
+  if (compression == "zstd") {
+    const std::uint64_t content = ZSTD_getFrameContentSize(packed.data(), packed.size());
+    if (content != size && content != ZSTD_CONTENTSIZE_UNKNOWN)
+      throw std::runtime_error("chunk has a wrong size");
   }
   Bytes out(static_cast<std::size_t>(size));
   if (compression == "zstd") {
@@ -191,6 +197,29 @@ class MessageDispatcher {
 
 }  // namespace
 
+namespace {
+
+/// Calls visit(body) for each record of one kind, until it returns false or the data end.
+template <class Visit>
+void ForEachRecord(const std::filesystem::path& path, Op op, Visit visit) {
+  RecordStream stream(path);
+  while (stream.Next()) {
+    if (stream.op() == kDataEnd || stream.op() == kFooter) return;
+    if (stream.op() != op) {
+      stream.Skip();
+      continue;
+    }
+    try {
+      if (!visit(Take(stream.Body()))) return;
+    } catch (const std::exception& e) {
+      throw std::runtime_error(
+          fmt::format("{}: at byte {}: {}", path.string(), stream.start(), e.what()));
+    }
+  }
+}
+
+}  // namespace
+
 McapReader::McapReader(std::filesystem::path path) : path_(std::move(path)) {
   RecordStream check(path_);  // throws if unreadable
 }
@@ -222,18 +251,42 @@ std::string McapReader::ForEachMessage(const OnMessage& on_message) {
 
 std::map<std::string, McapMetadata> McapReader::ReadMetadata() const {
   std::map<std::string, McapMetadata> all;
-  RecordStream stream(path_);
-  while (stream.Next()) {
-    if (stream.op() == kDataEnd || stream.op() == kFooter) break;
-    if (stream.op() != kMetadata) {
-      stream.Skip();
-      continue;
-    }
-    Take take(stream.Body());
+  ForEachRecord(path_, kMetadata, [&](Take take) {
     const std::string name = take.String();
     all[name] = take.Map();
-  }
+    return true;
+  });
   return all;
+}
+
+std::optional<McapAttachment> McapReader::ReadAttachment(const std::string& name) const {
+  std::optional<McapAttachment> found;
+  ForEachRecord(path_, kAttachment, [&](Take take) {
+    const std::span<const std::byte> body = take.rest();
+    take.Int<std::uint64_t>();  // log time
+    take.Int<std::uint64_t>();  // creation time
+    McapAttachment attachment;
+    attachment.name = take.String();
+    if (attachment.name != name) return true;
+    attachment.media_type = take.String();
+    const auto data = take.Raw(take.Int<std::uint64_t>());
+    const auto checked = body.first(body.size() - take.rest().size());
+    const auto crc = take.Int<std::uint32_t>();
+    if (crc != 0 && crc != Crc(checked)) throw std::runtime_error("wrong checksum");
+    attachment.data.assign(data.begin(), data.end());
+    found = std::move(attachment);
+    return false;
+  });
+  return found;
+}
+
+bool McapReader::IsWhole() const {
+  RecordStream stream(path_);
+  while (stream.Next()) {
+    if (stream.op() == kDataEnd || stream.op() == kFooter) return true;
+    stream.Skip();
+  }
+  return false;
 }
 
 }  // namespace scoria::core

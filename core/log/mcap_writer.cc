@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cerrno>
 #include <stdexcept>
 
 #include <zstd.h>
 
+#include "core/files.h"
 #include "core/log/mcap.h"
 #include "core/log/mcap_format.h"
 
@@ -59,7 +61,7 @@ void AppendRecord(Bytes& out, Op op, const Bytes& body) {
 
 McapWriter::McapWriter(const std::filesystem::path& path, std::size_t chunk_bytes)
     : out_(path, std::ios::binary), path_(path.string()), chunk_bytes_(chunk_bytes) {
-  if (!out_) throw std::runtime_error(fmt::format("{}: cannot open for writing", path_));
+  if (!out_) throw FileError(path_, "cannot write", errno);
   Bytes bytes;
   Put(bytes).Raw(std::as_bytes(std::span(kMagic)));
   Bytes header;
@@ -80,7 +82,7 @@ void McapWriter::Emit(const Bytes& bytes) {
   out_.write(reinterpret_cast<const char*>(bytes.data()),
              static_cast<std::streamsize>(bytes.size()));
   out_.flush();
-  if (!out_) throw std::runtime_error(fmt::format("{}: cannot write", path_));
+  if (!out_) throw FileError(path_, "cannot write", errno);
   offset_ += bytes.size();
 }
 
@@ -183,6 +185,19 @@ void McapWriter::AddMetadata(const std::string& name, const McapMetadata& metada
   Emit(bytes);
 }
 
+void McapWriter::AddAttachment(const McapAttachment& attachment) {
+  FlushChunk();
+  Bytes body, bytes;
+  Put(body).Int(std::uint64_t{0}).Int(std::uint64_t{0});  // log and creation time
+  Put(body).String(attachment.name).String(attachment.media_type);
+  Put(body).Int(static_cast<std::uint64_t>(attachment.data.size())).Raw(attachment.data);
+  Put(body).Int(Crc(body));
+  AppendRecord(bytes, kAttachment, body);
+  attachment_indexes_.push_back(
+      {offset_, bytes.size(), attachment.data.size(), attachment.name, attachment.media_type});
+  Emit(bytes);
+}
+
 void McapWriter::WriteSummary() {
   const std::uint64_t summary_start = offset_;
   const auto is_announced = [](const auto& item) { return item.announced; };
@@ -235,7 +250,7 @@ void McapWriter::WriteSummary() {
             std::count_if(schemas_.begin(), schemas_.end(), is_announced)))
         .Int(static_cast<std::uint32_t>(
             std::count_if(channels_.begin(), channels_.end(), is_announced)))
-        .Int(std::uint32_t{0})
+        .Int(static_cast<std::uint32_t>(attachment_indexes_.size()))
         .Int(static_cast<std::uint32_t>(metadata_indexes_.size()))
         .Int(static_cast<std::uint32_t>(chunk_indexes_.size()))
         .Int(first_ns_)
@@ -256,6 +271,14 @@ void McapWriter::WriteSummary() {
           .String("zstd");
       Put(body).Int(c.compressed).Int(c.uncompressed);
       AppendRecord(summary, kChunkIndex, body);
+    }
+  });
+  group(kAttachmentIndex, [&] {
+    for (const AttachmentIndex& a : attachment_indexes_) {
+      Bytes body;
+      Put(body).Int(a.offset).Int(a.length).Int(std::uint64_t{0}).Int(std::uint64_t{0});
+      Put(body).Int(a.data_size).String(a.name).String(a.media_type);
+      AppendRecord(summary, kAttachmentIndex, body);
     }
   });
   group(kMetadataIndex, [&] {
@@ -285,6 +308,7 @@ void McapWriter::Close() {
   Emit(bytes);
   WriteSummary();
   out_.close();
+  if (!out_) throw FileError(path_, "cannot write", errno);
 }
 
 }  // namespace scoria::core

@@ -7,12 +7,12 @@
 #include <map>
 #include <sstream>
 
-#include <console_bridge/console.h>
-#include <urdf_parser/urdf_parser.h>
+#include <urdf_model/model.h>
 
 #include "core/math/so3.h"
 #include "core/robot/mesh.h"
 #include "core/robot/normalise.h"
+#include "core/robot/urdf.h"
 
 namespace scoria::core {
 namespace {
@@ -51,21 +51,6 @@ void MergeInertia(Body& body, double mass, const Vec3& p_LC, const Mat3& I_C_L) 
   body.p_LC = c;
 }
 
-/// Collects what urdfdom complains about while it lives; urdfdom itself goes on with zeros.
-class UrdfComplaints : public console_bridge::OutputHandler {
- public:
-  UrdfComplaints() { console_bridge::useOutputHandler(this); }
-  ~UrdfComplaints() override { console_bridge::restorePreviousOutputHandler(); }
-  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
-    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR)
-      errors_ += (errors_.empty() ? "" : "; ") + text;
-  }
-  [[nodiscard]] const std::string& errors() const { return errors_; }
-
- private:
-  std::string errors_;
-};
-
 /// Walks the URDF tree, merging fixed links into the thirteen bodies.
 class TreeWalker {
  public:
@@ -82,7 +67,7 @@ class TreeWalker {
 
   void Walk() {
     CheckNames();
-    Visit(*model_.getRoot(), 0, Pose{});
+    Visit(*TrunkRoot(), 0, Pose{});
     if (!config_.imu_link.empty() && !imu_on_trunk_) {
       Fail(config_, "imu_link", fmt::format("the trunk has no link \"{}\"", config_.imu_link));
     }
@@ -98,6 +83,20 @@ class TreeWalker {
 
  private:
   Body& BodyAt(int index) { return const_cast<Body&>(robot_.body(index)); }
+
+  /// The link below the joints that only place the robot in the world (floating, planar, a chain of
+  /// them), whose links carry nothing.
+  [[nodiscard]] urdf::LinkConstSharedPtr TrunkRoot() const {
+    urdf::LinkConstSharedPtr root = model_.getRoot(), at = root;
+    while ((!at->inertial || at->inertial->mass == 0.0) && at->collision_array.empty() &&
+           at->visual_array.empty() && at->child_joints.size() == 1 &&
+           !joint_index_.contains(at->child_joints[0]->name)) {
+      const urdf::Joint& joint = *at->child_joints[0];
+      at = model_.getLink(joint.child_link_name);
+      if (joint.type != urdf::Joint::FIXED) root = at;
+    }
+    return root;
+  }
 
   /// Every joint and foot that the robot's YAML names is there, once, and of the right kind.
   void CheckNames() const {
@@ -161,9 +160,11 @@ class TreeWalker {
       return;
     }
     const auto found = joint_index_.find(joint.name);
-    if (joint.type != urdf::Joint::REVOLUTE || found == joint_index_.end()) {
-      Fail(config_, joint.name,
-           "is a movable joint that no leg names; it must be fixed or revolute in a leg");
+    if (found == joint_index_.end()) {
+      CheckHeld(joint, body);
+      robot_.held_joints.push_back(joint.name);
+      Visit(*child, body, X_J);
+      return;
     }
     const int index = found->second;
     const Leg leg = LegOf(index);
@@ -186,8 +187,32 @@ class TreeWalker {
                                   joint.limits->effort,
                                   joint.limits->velocity,
                                   1.0,
-                                  0.0};
+                                  0.0,
+                                  joint.dynamics ? joint.dynamics->damping : 0.0,
+                                  joint.dynamics ? joint.dynamics->friction : 0.0};
     Visit(*child, index, Pose{});
+  }
+
+  /// A joint that no leg names, as of a spinning lidar, can be held at zero on the trunk.
+  void CheckHeld(const urdf::Joint& joint, int body) const {
+    if (joint.type == urdf::Joint::FLOATING || joint.type == urdf::Joint::PLANAR) {
+      Fail(config_, joint.name,
+           "floats below the trunk; only above it, on links that carry nothing, may a joint do so. "
+           "Make it fixed");
+    }
+    if (body != 0) {
+      Fail(config_, joint.name,
+           fmt::format(
+               "moves below {}, but no leg names it; a leg has three joints. Make it fixed",
+               robot_.legs[LegOf(body)].joints[static_cast<std::size_t>(JointOf(body))].name));
+    }
+    if (joint.limits && joint.type != urdf::Joint::CONTINUOUS &&
+        !(joint.limits->lower <= 0.0 && joint.limits->upper >= 0.0)) {
+      Fail(config_, joint.name,
+           fmt::format("is in no leg, so it is held at zero, outside of its limits [{}, {}]. Make "
+                       "it fixed at the angle that it should have",
+                       joint.limits->lower, joint.limits->upper));
+    }
   }
 
   void AddInertia(const urdf::Link& link, int body, const Pose& X_L) {
@@ -229,7 +254,8 @@ class TreeWalker {
         const urdf::Color& c = visual->material->color;
         shape.colour = {c.r, c.g, c.b};
       }
-      if (shape.kind == Shape::Kind::kMesh && !std::filesystem::exists(shape.mesh)) {
+      if (shape.kind == Shape::Kind::kMesh && !robot_.meshes.contains(shape.mesh_name) &&
+          !std::filesystem::exists(shape.mesh)) {
         Remark(fmt::format("{}: visual mesh {} is missing and not drawn", link.name,
                            shape.mesh.string()));
         continue;
@@ -254,12 +280,21 @@ class TreeWalker {
     robot_.collisions.push_back(shape);
   }
 
+  std::optional<MeshBounds> BoundsOf(const Shape& shape) const {
+    const auto record = robot_.meshes.find(shape.mesh_name);
+    return record == robot_.meshes.end() ? CalcMeshBounds(shape.mesh, shape.size_m)
+                                         : Scaled(record->second.bounds, shape.size_m);
+  }
+
   /// A mesh in collision becomes the box around it.
   Shape Solid(const Shape& shape, const std::string& link) {
     if (shape.kind != Shape::Kind::kMesh) return shape;
-    const auto bounds = CalcMeshBounds(shape.mesh, shape.size_m);
+    const auto bounds = BoundsOf(shape);
     if (!bounds) {
-      Fail(config_, link, fmt::format("collision mesh {} cannot be read", shape.mesh.string()));
+      Fail(config_, link,
+           fmt::format("collision mesh {} cannot be read; put it there, or let the link collide as "
+                       "a box, cylinder or sphere, or not at all",
+                       shape.mesh.string()));
     }
     Remark(fmt::format("{}: collides as the box around {}", link, shape.mesh.filename().string()));
     Shape box = shape;
@@ -289,6 +324,7 @@ class TreeWalker {
       shape.kind = Shape::Kind::kMesh;
       shape.size_m = ToVec3(mesh.scale);
       shape.mesh = FindMesh(mesh.filename, config_.urdf);
+      shape.mesh_name = mesh.filename;
     }
     return shape;
   }
@@ -357,6 +393,7 @@ const Body& RobotDescription::body(int index) const {
 RobotDescription ReadRobot(const RobotConfig& config) {
   std::ifstream in(config.urdf);
   if (!in) Fail(config, "urdf", "cannot read the file");
+  if (std::filesystem::is_directory(config.urdf)) Fail(config, "urdf", "is a folder, not a URDF");
   std::stringstream text;
   text << in.rdbuf();
   return MakeRobot(config, text.str());
@@ -372,15 +409,13 @@ RobotDescription LoadRobot(const RobotConfig& config) {
   return robot;
 }
 
-RobotDescription MakeRobot(const RobotConfig& config, const std::string& urdf_text) {
-  const UrdfComplaints complaints;
-  const auto model = urdf::parseURDF(urdf_text);
-  if (!model || !complaints.errors().empty()) {
-    Fail(config, "urdf", fmt::format("not a valid URDF: {}", complaints.errors()));
-  }
+RobotDescription MakeRobot(const RobotConfig& config, const std::string& urdf_text,
+                           const MeshRecords& meshes) {
+  const urdf::ModelInterfaceSharedPtr model = ParseUrdf(urdf_text, config.urdf.string());
   RobotDescription robot;
   robot.config = config;
   robot.urdf_text = urdf_text;
+  robot.meshes = meshes;
   TreeWalker(config, *model, robot).Walk();
   for (const PayloadParams& body : config.equipment) Mount(body, robot);
   for (int i = 0; i < kNumBodies; ++i) {

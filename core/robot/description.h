@@ -8,6 +8,7 @@
 
 #include "core/config/archive.h"
 #include "core/robot/legs.h"
+#include "core/robot/mesh.h"
 #include "core/robot/payload_body.h"
 
 namespace scoria::core {
@@ -152,6 +153,7 @@ struct JointDescription {
   Vec3 axis_J = Vec3::UnitX();
   double lower_rad = 0.0, upper_rad = 0.0, effort_Nm = 0.0, velocity_radps = 0.0;
   double urdf_sign = 1.0, urdf_zero_rad = 0.0;
+  double urdf_damping_Nms_per_rad = 0.0, urdf_friction_Nm = 0.0;  // <dynamics>; not used
 };
 
 struct LegDescription {
@@ -170,6 +172,7 @@ struct Shape {
   bool is_foot = false;
   Vec3 size_m = Vec3::Zero();  // box: edges; cylinder: radius, length; sphere: radius; mesh: scale
   std::filesystem::path mesh;
+  std::string mesh_name;     // as the URDF writes it
   Vec3 p_LG = Vec3::Zero();  // geometry centre in the body's link frame; cylinders along their z
   Mat3 R_LG = Mat3::Identity();
   std::array<float, 3> colour = {0.7f, 0.7f, 0.7f};
@@ -185,7 +188,9 @@ struct RobotDescription {
   Vec3 p_BS = Vec3::Zero();  // IMU in the trunk
   Mat3 R_BS = Mat3::Identity();
   std::vector<Shape> collisions, visuals;
-  std::vector<std::string> remarks;  // what of the URDF could not be taken as it stands
+  std::vector<std::string> remarks;      // what of the URDF could not be taken as it stands
+  std::vector<std::string> held_joints;  // that move in the URDF, outside of the legs; held at zero
+  MeshRecords meshes;                    // of a robot from a log: they stand for the files
 
   [[nodiscard]] double total_mass_kg() const;
   /// Neutral foothold in the trunk frame at z = 0: below the hip, widened by the abduction link.
@@ -217,7 +222,9 @@ inline constexpr int kNumBodies = 1 + kNumJoints;
 
 /// The robot of a URDF text (a log carries it): a trunk and four legs of HAA, HFE, KFE, fixed links
 /// merged, joints in the house convention.
+/// @param meshes  where the log carries them too; files that are not among them are read.
 /// Errors: as ReadRobot.
-[[nodiscard]] RobotDescription MakeRobot(const RobotConfig& config, const std::string& urdf_text);
+[[nodiscard]] RobotDescription MakeRobot(const RobotConfig& config, const std::string& urdf_text,
+                                         const MeshRecords& meshes = {});
 
 }  // namespace scoria::core

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/robot/inspect.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
@@ -103,15 +104,99 @@ void CheckConfig(const RobotDescription& robot, std::vector<std::string>& out) {
   }
 }
 
+double LegLength(const RobotDescription& robot) {
+  const LegDescription& leg = robot.legs[Leg::kFL];
+  return ThighLength(leg) + ShankLength(leg);
+}
+
+constexpr double kLargestShape = 4.0, kSmallestMesh = 0.01;  // of the leg length
+constexpr const char* kScaleHint =
+    "; a mesh in millimetres needs scale=\"0.001 0.001 0.001\", one in metres none";
+
 void CheckVisuals(const RobotDescription& robot, std::vector<std::string>& out) {
   for (const Shape& shape : robot.visuals) {
-    if (shape.kind == Shape::Kind::kMesh && !LoadMesh(shape.mesh, shape.size_m))
+    if (shape.kind != Shape::Kind::kMesh) continue;
+    const auto bounds = CalcMeshBounds(shape.mesh, shape.size_m);
+    if (!bounds) {
       out.push_back(
           fmt::format("visual mesh {} cannot be read and is not drawn", shape.mesh.string()));
+      continue;
+    }
+    const double extent_m = (bounds->high - bounds->low).maxCoeff(), leg_m = LegLength(robot);
+    if (extent_m <= kLargestShape * leg_m) continue;
+    out.push_back(fmt::format("visual mesh {} is {:.4g} m wide, beside legs of {:.2f} m{}",
+                              shape.mesh.string(), extent_m, leg_m, kScaleHint));
   }
 }
 
+/// Height, stance and falls are of the root link, as if it were the trunk.
+void CheckRoot(const RobotDescription& robot, std::vector<std::string>& out) {
+  constexpr double kFarthest = 0.2;  // of the leg length; trunks' origins lie at or near the hips
+  const Vec3 p = MiddleOfHips(robot);
+  if (p.norm() <= kFarthest * LegLength(robot)) return;
+  out.push_back(fmt::format(
+      "{}: the root link is taken for the trunk, but the middle of the hips lies at ({:.3f} {:.3f} "
+      "{:.3f}) m of it; make the trunk the root link",
+      robot.trunk.name, p.x(), p.y(), p.z()));
+}
+
+Vec3 ExtentOf(const Shape& shape) {
+  switch (shape.kind) {
+    case Shape::Kind::kCylinder:
+      return {2.0 * shape.size_m[0], 2.0 * shape.size_m[0], shape.size_m[1]};
+    case Shape::Kind::kSphere:
+      return Vec3::Constant(2.0 * shape.size_m[0]);
+    default:
+      return shape.size_m;
+  }
+}
+
+void CheckShapeSizes(const RobotDescription& robot, std::vector<std::string>& out) {
+  const double leg_m = LegLength(robot);
+  for (const Shape& shape : robot.collisions) {
+    const double extent_m = ExtentOf(shape).maxCoeff();
+    const bool is_mesh = !shape.mesh.empty();
+    if (extent_m <= kLargestShape * leg_m && (!is_mesh || extent_m >= kSmallestMesh * leg_m))
+      continue;
+    out.push_back(fmt::format("{}: collides as {} of {:.4g} m, beside legs of {:.2f} m{}",
+                              robot.body(shape.body).name,
+                              is_mesh ? shape.mesh.filename().string() : "a shape", extent_m, leg_m,
+                              is_mesh ? kScaleHint : ""));
+  }
+}
+
+/// The drive trains are those of the robot's YAML, which every joint HAA, HFE or KFE shares.
+void CheckDynamics(const RobotDescription& robot, std::vector<std::string>& out) {
+  Vec3 damping = Vec3::Zero(), friction = Vec3::Zero();
+  for (const Leg leg : kLegs) {
+    for (int j = 0; j < kJointsPerLeg; ++j) {
+      const JointDescription& joint = robot.legs[leg].joints[static_cast<std::size_t>(j)];
+      damping[j] = std::max(damping[j], joint.urdf_damping_Nms_per_rad);
+      friction[j] = std::max(friction[j], joint.urdf_friction_Nm);
+    }
+  }
+  const MotorParams& motors = robot.config.motors;
+  const bool is_given = !damping.isZero() || !friction.isZero();
+  if (!is_given || (damping == motors.damping_Nms_per_rad && friction == motors.friction_Nm))
+    return;
+  out.push_back(fmt::format(
+      "<dynamics> of the URDF is not used, motors of the robot's YAML are; as the URDF has it: "
+      "damping_Nms_per_rad: [{}, {}, {}], friction_Nm: [{}, {}, {}]",
+      damping[0], damping[1], damping[2], friction[0], friction[1], friction[2]));
+}
+
 }  // namespace
+
+std::vector<std::string> FindModelWarnings(const RobotDescription& robot) {
+  std::vector<std::string> out;
+  if (!robot.held_joints.empty()) {
+    out.push_back(fmt::format("{}: in no leg, held at zero", fmt::join(robot.held_joints, ", ")));
+  }
+  CheckRoot(robot, out);
+  CheckShapeSizes(robot, out);
+  CheckDynamics(robot, out);
+  return out;
+}
 
 std::vector<std::string> FindSuspicions(const RobotDescription& robot) {
   std::vector<std::string> out = robot.remarks;

@@ -2,6 +2,7 @@
 #include "core/robot/mesh.h"
 
 #include <array>
+#include <charconv>
 
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
@@ -46,6 +47,11 @@ std::optional<TriangleMesh> LoadMesh(const std::filesystem::path& file, const Ve
   return mesh;
 }
 
+MeshBounds Scaled(const MeshBounds& bounds, const Vec3& scale) {
+  const Vec3 a = scale.cwiseProduct(bounds.low), b = scale.cwiseProduct(bounds.high);
+  return {a.cwiseMin(b), a.cwiseMax(b)};
+}
+
 std::optional<MeshBounds> CalcMeshBounds(const std::filesystem::path& file, const Vec3& scale) {
   const std::optional<TriangleMesh> mesh = LoadMesh(file, scale);
   if (!mesh) return std::nullopt;
@@ -57,13 +63,38 @@ std::optional<MeshBounds> CalcMeshBounds(const std::filesystem::path& file, cons
   return bounds;
 }
 
-std::filesystem::path FindMesh(const std::string& name, const std::filesystem::path& urdf) {
-  namespace fs = std::filesystem;
-  constexpr std::string_view kFile = "file://", kPackage = "package://";
-  const fs::path folder = fs::absolute(urdf).parent_path();
-  if (name.starts_with(kFile)) return name.substr(kFile.size());
-  if (!name.starts_with(kPackage)) return folder / name;
-  const fs::path path = name.substr(kPackage.size());
+namespace {
+
+namespace fs = std::filesystem;
+
+/// `%20` and its like as the bytes that they stand for.
+std::string DecodePercent(const std::string& text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    unsigned byte = 0;
+    const char* hex = text.data() + i + 1;
+    const bool is_escape = text[i] == '%' && i + 2 < text.size() &&
+                           std::from_chars(hex, hex + 2, byte, 16).ptr == hex + 2;
+    out += is_escape ? static_cast<char>(byte) : text[i];
+    if (is_escape) i += 2;
+  }
+  return out;
+}
+
+/// The path of a file: URI, without its host.
+fs::path PathOfFileUri(std::string_view uri, const fs::path& folder) {
+  constexpr std::string_view kFile = "file:", kHost = "//", kLocal = "//localhost/";
+  uri.remove_prefix(kFile.size());
+  if (uri.starts_with(kLocal)) {
+    uri.remove_prefix(kLocal.size() - 1);
+  } else if (uri.starts_with(kHost)) {
+    uri.remove_prefix(kHost.size());
+  }
+  return folder / uri;
+}
+
+/// A path whose first part is a package, sought in the folders above.
+fs::path FindInPackage(const fs::path& path, const fs::path& folder) {
   const fs::path package = *path.begin(), inside = path.lexically_relative(package);
   for (fs::path above = folder; above != above.root_path(); above = above.parent_path()) {
     for (const fs::path& candidate : {above / path, above / inside}) {
@@ -71,6 +102,22 @@ std::filesystem::path FindMesh(const std::string& name, const std::filesystem::p
     }
   }
   return folder / inside;
+}
+
+fs::path FindVerbatim(const std::string& name, const fs::path& folder) {
+  for (const std::string_view scheme : {"package://", "model://"}) {
+    if (name.starts_with(scheme) && name.size() > scheme.size())
+      return FindInPackage(name.substr(scheme.size()), folder);
+  }
+  return name.starts_with("file:") ? PathOfFileUri(name, folder) : folder / name;
+}
+
+}  // namespace
+
+fs::path FindMesh(const std::string& name, const fs::path& urdf) {
+  const fs::path folder = fs::absolute(urdf).parent_path();
+  const fs::path verbatim = FindVerbatim(name, folder);
+  return fs::exists(verbatim) ? verbatim : FindVerbatim(DecodePercent(name), folder);
 }
 
 }  // namespace scoria::core

@@ -102,6 +102,31 @@ std::string TooShort(const LegDescription& leg, Leg which) {
   return "";
 }
 
+bool IsPlaced(const Vec3& hip, Leg leg) {
+  return (hip.x() > 0.0) == IsFront(leg) && (hip.y() > 0.0) == IsLeft(leg);
+}
+
+/// The four hips stand around the origin of the trunk, each in its quarter.
+std::string MisplacedHip(const RobotDescription& robot) {
+  const Vec3 middle = MiddleOfHips(robot);
+  const auto hip = [&](Leg leg) -> const Vec3& { return robot.legs[leg].joints[0].p_PJ; };
+  const bool around_middle = std::all_of(kLegs.begin(), kLegs.end(),
+                                         [&](Leg leg) { return IsPlaced(hip(leg) - middle, leg); });
+  for (const Leg leg : kLegs) {
+    if (IsPlaced(hip(leg), leg)) continue;
+    if (around_middle) {
+      return fmt::format(
+          "the middle of the hips lies at ({:.3f} {:.3f} {:.3f}) m of the root link {}, which is "
+          "taken for the trunk; make the trunk the root link",
+          middle.x(), middle.y(), middle.z(), robot.trunk.name);
+    }
+    return fmt::format(
+        "{} has its hip at x {:.3f}, y {:.3f} of the trunk, where another leg should be",
+        LegName(leg), hip(leg).x(), hip(leg).y());
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string NormaliseJoints(RobotDescription& robot) {
@@ -112,16 +137,14 @@ std::string NormaliseJoints(RobotDescription& robot) {
       problem = TooShort(robot.legs[leg], leg);
     }
     if (!problem.empty()) return problem;
-    const Vec3& hip = robot.legs[leg].joints[0].p_PJ;
-    const bool placed = (hip.x() > 0.0) == IsFront(leg) && (hip.y() > 0.0) == IsLeft(leg);
-    if (!placed) {
-      return fmt::format(
-          "{} has its hip at x {:.3f}, y {:.3f} of the trunk, where another leg "
-          "should be",
-          LegName(leg), hip.x(), hip.y());
-    }
   }
-  return "";
+  return MisplacedHip(robot);
+}
+
+Vec3 MiddleOfHips(const RobotDescription& robot) {
+  Vec3 sum = Vec3::Zero();
+  for (const Leg leg : kLegs) sum += robot.legs[leg].joints[0].p_PJ;
+  return 0.25 * sum;
 }
 
 double ThighLength(const LegDescription& leg) {

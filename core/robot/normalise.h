@@ -23,6 +23,9 @@ void DeriveDefaults(RobotDescription& robot);
 /// The robot's lying pose for one leg, within its limits.
 [[nodiscard]] Vec3 LyingPose(const RobotDescription& robot, Leg leg);
 
+/// Mean place of the HAA joints in the root link.
+[[nodiscard]] Vec3 MiddleOfHips(const RobotDescription& robot);
+
 /// Thigh and shank, m: HFE to KFE, KFE to foot.
 [[nodiscard]] double ThighLength(const LegDescription& leg);
 [[nodiscard]] double ShankLength(const LegDescription& leg);

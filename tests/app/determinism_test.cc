@@ -7,7 +7,10 @@
 
 #include "app/campaign.h"
 #include "app/episode_files.h"
+#include "app/log_origin.h"
+#include "app/replay.h"
 #include "app/verify.h"
+#include "core/files.h"
 #include "core/log/messages.h"
 #include "terrains/generator.h"
 #include "tests/support/robots.h"
@@ -153,6 +156,42 @@ TEST(Verify, TruncatedLogIsComparedAsFarAsItGoes) {
   const VerifyResult r = VerifyLog(log);
   EXPECT_TRUE(r.identical) << r.difference;
   EXPECT_NE(r.file_problem.find("cut off at byte"), std::string::npos);
+}
+
+TEST(Verify, InterruptedRunIsProvedUpToItsEnd) {
+  const test::TemporaryFolder folder;
+  for (const double stop_s : {0.0, 0.25, 1.0}) {
+    std::atomic<bool> stop = false;
+    RunOptions options;
+    options.folder = folder.path();
+    options.interrupted = &stop;
+    options.on_progress = [&](double time_s, int) { stop = time_s >= stop_s; };
+    ASSERT_EQ(RunToFolder(ShortScenario(), options).result.end, EpisodeEnd::kInterrupted);
+    const VerifyResult r = VerifyLog(folder.path() / "log.mcap");
+    EXPECT_TRUE(r.identical) << r.difference;
+    EXPECT_FALSE(r.complete);
+    EXPECT_NEAR(r.until_s, stop_s + ShortScenario().physics.step_s, 1e-6) << "that was not run";
+  }
+}
+
+TEST(Verify, LogCutBeforeItsFirstChunkSaysSo) {
+  const test::TemporaryFolder folder;
+  (void)RunInto(ShortScenario(), folder.path());
+  const fs::path log = folder.path() / "log.mcap";
+  const std::string bytes = core::ReadText(log);
+  fs::resize_file(log, bytes.find("zstd"));
+  const VerifyResult r = VerifyLog(log);
+  EXPECT_FALSE(r.identical);
+  EXPECT_EQ(r.difference, "the log ends before a whole step that could be compared");
+  try {
+    (void)ReplayLog(log, {});
+    FAIL();
+  } catch (const std::runtime_error& e) {
+    const std::string what = e.what();
+    EXPECT_NE(what.find("cut off at byte"), std::string::npos) << what;
+    EXPECT_NE(what.find("; there are no controller inputs before that"), std::string::npos) << what;
+    EXPECT_EQ(what.find("log.keep=full"), std::string::npos) << what;
+  }
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/files.h"
 #include "tests/support/robots.h"
 
 namespace scoria::app {
@@ -33,6 +34,80 @@ TEST(Info, PrintsTheRobotAndItsWarnings) {
   test::TemporaryFolder folder;
   EXPECT_NE(Shell("info robots/none.yaml").find("none.yaml: cannot"), std::string::npos)
       << Shell("info robots/none.yaml");
+}
+
+/// A robot YAML beside a changed copy of the Go2's URDF.
+std::filesystem::path ChangedGo2(const test::TemporaryFolder& folder, const std::string& from,
+                                 const std::string& to) {
+  std::string urdf = test::Go2().urdf_text;
+  urdf.replace(urdf.find(from), from.size(), to);
+  core::WriteText(folder.path() / "dog.urdf", urdf);
+  core::WriteText(
+      folder.path() / "dog.yaml",
+      fmt::format("base: {}\nurdf: {}\n", test::SourcePath("robots/go2/go2.yaml").string(),
+                  (folder.path() / "dog.urdf").string()));
+  return folder.path() / "dog.yaml";
+}
+
+TEST(Info, WarnsOfAWeightThatTwoFeetMayNotCarry) {
+  const test::TemporaryFolder folder;
+  const auto heavy = ChangedGo2(folder, "mass value=\"6.921\"", "mass value=\"60\"");
+  const std::string text = Shell("info " + heavy.string());
+  EXPECT_NE(text.find("warning: 68.1 kg are 334 N per foot on two feet, more than "
+                      "controller.mpc.f_max_N 250; raise it\n"),
+            std::string::npos)
+      << text;
+  EXPECT_EQ(text.find("warning"), text.rfind("warning")) << text;
+}
+
+TEST(Run, WarnsBeforeTheWalkUnlessQuiet) {
+  const test::TemporaryFolder folder;
+  (void)ChangedGo2(folder, "mass value=\"6.921\"", "mass value=\"60\"");
+  std::string grid = "ncols 20\nnrows 20\ncellsize 0.5\n";
+  for (int i = 0; i < 400; ++i) grid += i % 20 < 2 && i < 40 ? "9 " : "0 ";  // a corner of four
+  core::WriteText(folder.path() / "g.asc", grid);
+  const std::string run = fmt::format(
+      "run scenarios/flat.yaml --set duration_s=0.2 --set 'robot={{base: {0}/dog.yaml}}' --set "
+      "'terrain={{name: quarry, heightmap: {{file: {0}/g.asc}}}}' --out {0}/",
+      folder.path().string());
+  const std::string text = Shell(run + "told");
+  EXPECT_NE(text.find("warning: go2: 68.1 kg are 334 N per foot on two feet, more than "
+                      "controller.mpc.f_max_N 250; raise it\n"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("warning: quarry: 3 of 400 nodes of the heightmap, steeper than "
+                      "max_slope_rad 1.5, are lowered to it\n"),
+            std::string::npos)
+      << text;
+  EXPECT_EQ(Shell(run + "quiet --quiet"), "");
+}
+
+TEST(Schema, IsPrintedForEveryKind) {
+  for (const char* kind : {"", "robot", "terrain", "campaign", "payload", "controller", "operator"})
+    EXPECT_TRUE(nlohmann::json::parse(Shell(fmt::format("schema {}", kind))).is_object()) << kind;
+  EXPECT_NE(Shell("schema robots").find("robot"), std::string::npos);
+}
+
+TEST(WrongFile, IsNamedInOneShortLine) {
+  const test::TemporaryFolder folder;
+  std::string grid = "ncols 200\nnrows 200\ncellsize 0.5\n";
+  for (int i = 0; i < 40000; ++i) grid += "1.25 ";
+  const std::string file = (folder.path() / "dem.asc").string();
+  core::WriteText(file, grid);
+  const std::string not_yaml =
+      ": is an ESRI ASCII grid, not a YAML file (a terrain names it: heightmap: {file: "
+      "NAME.asc})\n";
+  for (const char* command : {"terrain", "info", "run", "campaign"})
+    EXPECT_EQ(Shell(fmt::format("{} {}", command, file)), file + not_yaml) << command;
+  EXPECT_EQ(Shell("info robots/go2/go2.urdf"),
+            "robots/go2/go2.urdf: is a URDF, not a YAML file (a robot's YAML names it: urdf: "
+            "NAME.urdf)\n");
+  EXPECT_EQ(Shell("run docs/images/vulcano.png"),
+            "docs/images/vulcano.png: is a PNG image, not a YAML file (a terrain names it: "
+            "heightmap: {file: NAME.png})\n");
+  EXPECT_EQ(Shell("run campaigns/demo.yaml"),
+            "campaigns/demo.yaml: is a campaign, not a scenario (for scoria campaign)\n");
+  EXPECT_LT(Shell("run README.md").size(), 200u);
 }
 
 TEST(Terrain, DrawsAndMeasuresAPreset) {

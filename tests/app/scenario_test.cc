@@ -105,12 +105,17 @@ TEST(Campaign, SweepsOverVariantsOfSeveralKeys) {
 TEST(Campaign, SweepErrorsNameTheRule) {
   EXPECT_EQ(SweepError("  - {label: l, key: seed, variants: [{name: v}]}"),
             "c.yaml:5:37: sweep[0].variants: stands in place of key and values");
+  EXPECT_EQ(SweepError("  - {values: [1]}"),
+            "c.yaml:5:5: sweep[0].key: is missing and has no default");
+  EXPECT_EQ(SweepError("  - {key: seed}"), "c.yaml:5:5: sweep[0].values: must list at least one");
+  EXPECT_EQ(SweepError("  - {label: l, variants: []}"),
+            "c.yaml:5:5: sweep[0].variants: must list at least one");
   EXPECT_EQ(SweepError("  - {variants: [{name: v}]}"),
             "c.yaml:5:5: sweep[0].label: is missing; variants need one");
   EXPECT_EQ(SweepError("  - {label: l, baseline: w, variants: [{name: v}]}"),
             "c.yaml:5:26: sweep[0].baseline: w: is none of the variants");
   EXPECT_EQ(SweepError("  - {label: l, variants: [{name: v, sed: 1}]}"),
-            "c.yaml:5:37: sweep[0].variants[0].sed: unknown key; known here: name, set");
+            "c.yaml:5:37: sweep[0].variants[0].sed: unknown key (did you mean \"set\"?)");
   EXPECT_EQ(SweepError("  - {key: duration_s, baseline: 20, values: [10, 20]}"), "no error");
 }
 

@@ -140,6 +140,111 @@ TEST(Config, BaseThatIncludesItselfIsRefused) {
   EXPECT_THROW((void)LoadConfig(folder.path() / "a.yaml"), ConfigError);
 }
 
+/// What reading `content` as a YAML file says, without the folder.
+std::string FileErrorOf(const std::string& content) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "a.yaml";
+  std::ofstream(file, std::ios::binary) << content;
+  try {
+    (void)ReadConfig<Sample>(LoadConfig(file));
+  } catch (const ConfigError& e) {
+    const std::string text = e.what(), prefix = folder.path().string() + "/";
+    return text.starts_with(prefix) ? text.substr(prefix.size()) : text;
+  }
+  return "no error";
+}
+
+TEST(Config, AFileOfAnotherKindIsNamedInOneLine) {
+  using namespace std::string_literals;
+  EXPECT_EQ(FileErrorOf("<robot name=\"r\">\n" + std::string(100000, ' ')),
+            "a.yaml: is a URDF, not a YAML file (a robot's YAML names it: urdf: NAME.urdf)");
+  EXPECT_EQ(FileErrorOf("<robot name=\"r\"><mass value=\"${m}\"/>"),
+            "a.yaml: is a xacro, not a YAML file (expand it: xacro IN > OUT.urdf)");
+  EXPECT_EQ(FileErrorOf("ncols 16\nnrows 16\n" + std::string(100000, '1')),
+            "a.yaml: is an ESRI ASCII grid, not a YAML file (a terrain names it: heightmap: {file: "
+            "NAME.asc})");
+  EXPECT_EQ(FileErrorOf("\x89MCAP0\r\n"),
+            "a.yaml: is an MCAP log, not a YAML file (render, replay and verify take it)");
+  EXPECT_EQ(FileErrorOf("a\0b"s), "a.yaml: is a binary file, not a YAML file");
+  EXPECT_EQ(FileErrorOf(std::string(20000000, '\n')),
+            "a.yaml: has 19 MiB; a YAML file of scoria has at most 16");
+  EXPECT_EQ(FileErrorOf("time_s,x_m\n0,1\n"), "a.yaml:1:1: \"time_s,x_m 0,1\" is not a map");
+  const std::string folder = std::filesystem::temp_directory_path().string();
+  try {
+    (void)LoadConfig(folder);
+    FAIL();
+  } catch (const ConfigError& e) {
+    EXPECT_TRUE(std::string(e.what()).ends_with(" is a folder, not a YAML file")) << e.what();
+  }
+}
+
+TEST(Config, TextThatIsNotUtf8IsRefusedWithItsPlace) {
+  EXPECT_EQ(FileErrorOf("count: 3\nname: R\xfc"
+                        "ckweg\n"),
+            "a.yaml:2:8: name: byte 0xFC is not UTF-8; save the file as UTF-8");
+  EXPECT_EQ(FileErrorOf("name: x  # Gr\xf6\xdf"
+                        "e\n"),
+            "a.yaml:1:14: byte 0xF6 is not UTF-8; save the file as UTF-8");
+  EXPECT_EQ(FileErrorOf("{count: 3, name: \xe9}\n"),
+            "a.yaml:1:18: name: byte 0xE9 is not UTF-8; save the file as UTF-8");
+  EXPECT_EQ(FileErrorOf("name: R\xc3\xbc"
+                        "ckweg\n"),
+            "no error");
+  ConfigNode node = ParseConfig("name: x\n", "a.yaml");
+  try {
+    ApplyOverride(node,
+                  "name=R\xfc"
+                  "ckweg");
+    FAIL();
+  } catch (const ConfigError& e) {
+    EXPECT_STREQ(e.what(),
+                 "--set name=R\\xFCckweg: byte 0xFC is not UTF-8; save the file as UTF-8");
+  }
+}
+
+TEST(Config, LongValuesAndKeysAreShortened) {
+  const std::string many(100000, '7');
+  EXPECT_EQ(ErrorOf("name: x\ncount: x" + many + "\n"), "a.yaml:2:8: count: \"x" +
+                                                            many.substr(0, 59) +
+                                                            "... (100001 bytes)\" is not a whole "
+                                                            "number");
+  for (const std::string& yaml :
+       {"name: x\nlist: " + many, "name: x\nk" + many + ": 1", "name: x\ncolour: " + many,
+        "name: x\nshape: {type: " + many + "}", "name: [" + many, "name: x\nname: y" + many,
+        "name: x\non: 'a\n\n" + many + "'"}) {
+    const std::string error = ErrorOf(yaml);
+    EXPECT_NE(error, "no error");
+    EXPECT_LT(error.size(), 400u) << error;
+    EXPECT_EQ(error.find('\n'), std::string::npos);
+  }
+}
+
+TEST(Config, AliasesThatMultiplyAreRefused) {
+  std::string yaml = "a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n";
+  for (int i = 1; i < 10; ++i) {
+    yaml += fmt::format("a{0}: &a{0} [*a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}]\n", i,
+                        i - 1);
+  }
+  const std::string error = ErrorOf(yaml);
+  EXPECT_TRUE(error.ends_with(": has more than 1000000 values, aliases included")) << error;
+}
+
+TEST(Config, MergeKeysLayMapsUnderOthers) {
+  const auto read = [](const std::string& yaml) {
+    return ReadConfig<Sample>(ParseConfig(yaml, "a.yaml"));
+  };
+  const Sample one = read("name: x\nshape: &s {type: square, edge_m: 2}\nlist: []\n");
+  EXPECT_EQ(read("name: x\nshape: {<<: {type: square, edge_m: 2}}\n").shape, one.shape);
+  EXPECT_EQ(read("name: x\nlist: [&a {radius_m: 0.5}, {<<: *a}, {<<: *a, radius_m: 0.7}]\n").list,
+            (std::vector<Circle>{{0.5}, {0.5}, {0.7}}));
+  // Of several maps the first counts.
+  EXPECT_EQ(read("name: x\nlist: [&a {radius_m: 0.5}, &b {radius_m: 0.6}, {<<: [*b, *a]}]\n").list,
+            (std::vector<Circle>{{0.5}, {0.6}, {0.6}}));
+  EXPECT_EQ(ErrorOf("name: x\nshape: {<<: other.yaml}\n"),
+            "a.yaml:2:13: <<: merges maps of this file, as <<: *anchor; use base: for a file");
+  EXPECT_EQ(ErrorOf("name: x\nlist: [&a {radius: 0.5}]\n").substr(0, 12), "a.yaml:2:12:");
+}
+
 TEST(Config, OverrideSetsNestedKeysAndNewVariantsReplaceOldOnes) {
   ConfigNode node = ParseConfig("name: x\nshape: {type: circle, radius_m: 0.5}\n", "a.yaml");
   ApplyOverride(node, "shape.radius_m=0.9");

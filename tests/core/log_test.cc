@@ -139,6 +139,61 @@ TEST(Mcap, DamageIsNamedAndWhatPrecedesItIsRead) {
   EXPECT_THROW(McapReader{path}, std::runtime_error);
 }
 
+TEST(Mcap, AttachmentsTravelUnchanged) {
+  const test::TemporaryFolder folder;
+  const auto path = folder.path() / "a.mcap";
+  Bytes data(100000);
+  for (std::size_t i = 0; i < data.size(); ++i) data[i] = static_cast<std::byte>(i * i);
+  {
+    McapWriter writer(path);
+    writer.AddMetadata("before", {});
+    writer.AddAttachment({"ground.zst", "application/zstd", data});
+    writer.AddMetadata("after", {{"key", "value"}});
+  }
+  const McapReader reader(path);
+  const auto found = reader.ReadAttachment("ground.zst");
+  ASSERT_TRUE(found.has_value());
+  EXPECT_EQ(found->media_type, "application/zstd");
+  EXPECT_EQ(found->data, data);
+  EXPECT_FALSE(reader.ReadAttachment("other").has_value());
+  EXPECT_EQ(reader.ReadMetadata().at("after").at("key"), "value");
+  EXPECT_TRUE(reader.IsWhole());
+
+  std::string bytes = ReadAll(path);
+  bytes[bytes.find("application/zstd") + 5000] ^= 1;
+  std::ofstream(path, std::ios::binary) << bytes;
+  try {
+    (void)McapReader(path).ReadAttachment("ground.zst");
+    FAIL();
+  } catch (const std::runtime_error& e) {
+    EXPECT_NE(std::string(e.what()).find(": wrong checksum"), std::string::npos) << e.what();
+  }
+  std::filesystem::resize_file(path, 5000);
+  EXPECT_FALSE(McapReader(path).IsWhole());
+  EXPECT_FALSE(McapReader(path).ReadAttachment("ground.zst").has_value());
+}
+
+/// The size that a chunk claims is no reason to take memory.
+TEST(Mcap, ChunkThatClaimsTooMuchIsRefused) {
+  const test::TemporaryFolder folder;
+  const auto path = folder.path() / "a.mcap";
+  WriteSample(path, 300);
+  const std::string whole = ReadAll(path);
+  const std::size_t chunk = whole.find("zstd") - 4 - 4 - 8;  // before: length of the word, checksum
+  for (const std::uint64_t size :
+       {std::uint64_t{1} << 20, std::uint64_t{1} << 40, ~std::uint64_t{0}}) {
+    std::string bytes = whole;
+    for (std::size_t i = 0; i < 8; ++i) bytes[chunk + i] = static_cast<char>(size >> (8 * i));
+    std::ofstream(path, std::ios::binary) << bytes;
+    const std::string problem =
+        McapReader(path).ForEachMessage([](const McapReader::Message&) { return true; });
+    EXPECT_NE(
+        problem.find(size >> 20 > 1 ? "chunk claims more than 256 MiB" : "chunk has a wrong size"),
+        std::string::npos)
+        << problem;
+  }
+}
+
 // Every file of the MCAP project's conformance suite that uses a chunk or plain messages must at
 // least be readable.
 TEST(Mcap, ReadsTheConformanceFiles) {
