@@ -84,9 +84,14 @@ std::string WholeResult() {
   for (int k = 0; k < 10; ++k) m.windows.push_back({0.3 + 0.002 * k, 0.3, 0.5, 0.3, 2.0});
   m.falls.push_back({1.0, "tilt at x 0 m"});
   const json terrain = ToJson(terrains::TerrainStatistics{.materials = {{"tuff", 1.0}}});
-  return json{{"end", "completed"}, {"falls", 1},         {"stuck", 0},
-              {"walked_m", 50.0},   {"counters", json{}}, {"real_time_factor", 9.0},
-              {"terrain", terrain}, {"metrics", m}}
+  return json{{"end", "completed"},
+              {"falls", 1},
+              {"stuck", 0},
+              {"walked_m", 50.0},
+              {"counters", json::object()},
+              {"real_time_factor", 9.0},
+              {"terrain", terrain},
+              {"metrics", m}}
       .dump();
 }
 
