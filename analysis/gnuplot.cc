@@ -76,6 +76,7 @@ void Figure::Render(const fs::path& folder) const {
   core::WriteText(file(".gp"), Script());
   // gnuplot draws in a folder of its own, whose files are taken over once they are whole.
   const fs::path draft = file(".draft");
+  fs::remove_all(draft);
   core::CreateFolders(draft);
   const std::string command =
       fmt::format("cd {} && gnuplot -d {} > messages.txt 2>&1", ShellQuoted(draft.string()),

@@ -333,7 +333,8 @@ void AddVideos(const fs::path& folder, HtmlPage& page) {
   std::vector<std::pair<std::string, std::string>> links;
   for (const auto& entry :
        fs::recursive_directory_iterator(folder, fs::directory_options::skip_permission_denied)) {
-    if (entry.path().extension() != ".mp4") continue;
+    const bool unfinished = entry.path().stem().extension() == ".part";
+    if (entry.path().extension() != ".mp4" || unfinished) continue;
     links.emplace_back("../" + fs::relative(entry.path(), folder).string(),
                        entry.path().stem().string());
   }

@@ -114,7 +114,7 @@ void AddRun(CLI::App& app, int& exit_code) {
   run->add_option("--save-qps", o->save_qps,
                   "folder for every MPC and WBC problem with its solution (17 MB per second)");
   run->add_flag("--json", o->json, "print result.json instead of a summary");
-  run->add_flag("--quiet", o->quiet, "print nothing");
+  run->add_flag("--quiet", o->quiet, "print nothing but what goes wrong");
   run->callback([o, &exit_code] {
     const Scenario scenario = LoadScenario(o->scenario, o->set);
     CatchInterrupts();
@@ -122,7 +122,7 @@ void AddRun(CLI::App& app, int& exit_code) {
     const std::filesystem::path preferred =
         std::filesystem::path("out") / core::FileNameOf(scenario.name);
     const RunFolder folder = TakeRunFolder(o->out, preferred, o->force);
-    if (o->out.empty() && folder.path != preferred && !o->quiet)
+    if (o->out.empty() && folder.path != preferred)
       Note(fmt::format("{} is taken; writing to {}", preferred.string(), folder.path.string()));
     options.folder = folder.path;
     options.interrupted = &g_interrupted;
@@ -147,7 +147,7 @@ void AddRun(CLI::App& app, int& exit_code) {
       PrintSummary(scenario, report, options.folder.string());
     }
     const bool stopped = report.result.end == EpisodeEnd::kInterrupted;
-    if (!stopped && !report.failure.empty()) Note(scenario.name + ": " + report.failure);
+    if (!report.failure.empty()) Note(scenario.name + ": " + report.failure);
     exit_code = stopped ? kStopped : report.failure.empty() ? kOk : kFailed;
   });
 }

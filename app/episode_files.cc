@@ -81,6 +81,7 @@ double CommandedWay(const OperatorParams& operation, double duration_s) {
 
 std::string DescribeFailure(const EpisodeResult& result, double commanded_m) {
   constexpr double kCommanded_m = 0.5, kWalked_m = 0.1;
+  if (result.end == EpisodeEnd::kInterrupted) return "";
   if (result.end == EpisodeEnd::kNonFinite)
     return fmt::format("the state is not finite after {:.3f} s", result.duration_s);
   if (commanded_m > kCommanded_m && !(result.walked_m >= kWalked_m))

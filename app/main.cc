@@ -32,9 +32,9 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", scoria::app::kVersion);
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 done, 1 a check failed, logs differ or the robot did not walk, 2 wrong input, "
-      "3 "
-      "interrupted or unfinished, 4 a file or the disk refused.");
+      "Exit codes: 0 done; 1 a check failed, logs differ or the robot did not walk; 2 wrong "
+      "input;\n"
+      "3 interrupted or unfinished; 4 a file or the disk refused.");
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is an error of the write, not the end
   setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);  // quiet: what fails is told in our own words
   int exit_code = 0;

@@ -90,9 +90,10 @@ class Replay {
   ReplayResult Finish(const std::string& problem) {
     if (result_.steps == 0) {
       throw std::runtime_error(
-          problem.empty()
-              ? "the log holds no controller inputs from a start on; record it with log.keep=full"
-              : problem + "; there are no controller inputs before that");
+          !problem.empty() ? problem + "; there are no controller inputs before that"
+          : scenario_.log.keep == KeepLog::kFull
+              ? "the log ends before the first controller input"
+              : "the log holds no controller inputs from a start on; record it with log.keep=full");
     }
     result_.file_problem = problem;
     result_.logged = logged_.Finish();

@@ -105,13 +105,18 @@ class CompareSink final : public MessageSink {
                                   At(found->second[next].time_ns), topic.name);
       }
     }
-    if (compared_ == 0 && difference_.empty())
+    const bool before_first_step = problem_.empty() && !whole_ && last_ns_ < 0;  // nothing to prove
+    if (compared_ == 0 && difference_.empty() && !before_first_step)
       difference_ = whole_ ? "the log has no message that could be compared"
                            : "the log ends before a whole step that could be compared";
     const bool only_cut = problem_.empty() || problem_.find("cut off at byte") != std::string::npos;
     if (!only_cut && difference_.empty()) difference_ = problem_;
-    return {difference_.empty(), compared_, whole_, 1e-9 * static_cast<double>(last_ns_),
-            difference_,         problem_};
+    return {difference_.empty(),
+            compared_,
+            whole_,
+            1e-9 * static_cast<double>(std::max<std::int64_t>(last_ns_, 0)),
+            difference_,
+            problem_};
   }
 
  private:

@@ -174,6 +174,25 @@ TEST(Verify, InterruptedRunIsProvedUpToItsEnd) {
   }
 }
 
+TEST(Verify, RunInterruptedBeforeItsFirstStepHasNothingToDiffer) {
+  const test::TemporaryFolder folder;
+  const std::atomic<bool> stop = true;
+  RunOptions options;
+  options.folder = folder.path();
+  options.interrupted = &stop;
+  (void)RunToFolder(ShortScenario(), options);
+  const VerifyResult r = VerifyLog(folder.path() / "log.mcap");
+  EXPECT_TRUE(r.identical) << r.difference;
+  EXPECT_EQ(r.messages, 0u);
+  EXPECT_EQ(r.until_s, 0.0);
+  try {
+    (void)ReplayLog(folder.path() / "log.mcap", {});
+    FAIL();
+  } catch (const std::runtime_error& e) {
+    EXPECT_STREQ(e.what(), "the log ends before the first controller input");
+  }
+}
+
 TEST(Verify, LogCutBeforeItsFirstChunkSaysSo) {
   const test::TemporaryFolder folder;
   (void)RunInto(ShortScenario(), folder.path());
