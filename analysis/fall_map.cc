@@ -24,8 +24,10 @@ std::optional<terrains::Heightfield> MakeGroundAgain(const EpisodeRecord& e) {
     const core::ConfigNode* terrain = scenario.Find("terrain");
     const core::ConfigNode* seed = scenario.Find("seed");
     if (terrain == nullptr || seed == nullptr) return std::nullopt;
-    return terrains::GenerateTerrain(core::ReadConfig<terrains::TerrainParams>(*terrain),
-                                     std::stoull(seed->scalar), 0);
+    const auto params = core::ReadConfig<terrains::TerrainParams>(*terrain);
+    const std::uint64_t number = std::stoull(seed->scalar);
+    if (terrains::GroundId(params, number) != e.ground) return std::nullopt;  // a changed heightmap
+    return terrains::GenerateTerrain(params, number, 0);
   } catch (const std::exception&) {
     return std::nullopt;  // a map less is no reason to lose the report
   }

@@ -14,7 +14,6 @@
 #include "app/robot_warnings.h"
 #include "app/version.h"
 #include "core/files.h"
-#include "core/hash.h"
 #include "terrains/generator.h"
 
 namespace scoria::app {
@@ -30,14 +29,6 @@ nlohmann::json CountersToJson(const Counters& counters) {
   nlohmann::json json;
   for (const auto& [what, name] : EnumNames(Count{})) json[name] = counters[what];
   return json;
-}
-
-/// Episodes with equal ids walk the same ground.
-std::string GroundId(const Scenario& scenario) {
-  core::Hash64 hash;
-  hash.Add(core::EmitYaml(core::WriteConfig(scenario.terrain)));
-  hash.Add(fmt::format("{}", scenario.seed));
-  return fmt::format("{:016x}", hash.value());
 }
 
 /// Points half a metre apart are enough to draw it.
@@ -170,7 +161,7 @@ EpisodeReport RunToFolder(const Scenario& scenario, const RunOptions& options) {
       {"real_time_factor", report.real_time_factor},
       {"us_per_step", TimesToJson(r.times, scenario.physics.step_s / simulated_s * 1e6)},
       {"terrain", terrain},
-      {"ground", GroundId(scenario)},
+      {"ground", terrains::GroundId(scenario.terrain, scenario.seed)},
       {"route", RouteToJson(r.route)},
       {"metrics", report.metrics}};
   core::WriteText(options.folder / "result.json", analysis::JsonText(json));

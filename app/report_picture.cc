@@ -7,8 +7,7 @@
 #include "analysis/import.h"
 #include "analysis/results.h"
 #include "analysis/video/video.h"
-#include "app/verify.h"
-#include "terrains/generator.h"
+#include "app/log_origin.h"
 
 namespace scoria::app {
 namespace {
@@ -34,9 +33,8 @@ std::vector<fs::path> LogsOf(const fs::path& folder) {
 /// The rows up to a fall, or up to the middle of the walk.
 analysis::ReportPicture Draw(const fs::path& log, const analysis::LogContent& content) {
   const LogOrigin origin = ReadLogOrigin(log);
-  const core::RobotDescription robot = core::MakeRobot(origin.scenario.robot, origin.urdf_text);
-  const terrains::Heightfield ground =
-      terrains::GenerateTerrain(origin.scenario.terrain, origin.scenario.seed, 0);
+  const core::RobotDescription robot = RobotOf(origin);
+  const terrains::Heightfield ground = GroundOf(origin);
   const auto& rows = content.rows;
   const bool fell = !content.falls_s.empty();
   const double until_s =

@@ -6,6 +6,9 @@
 #include <limits>
 #include <numbers>
 
+#include "core/config/archive.h"
+#include "core/files.h"
+#include "core/hash.h"
 #include "terrains/heightmap.h"
 #include "terrains/relief.h"
 #include "terrains/spectrum.h"
@@ -238,6 +241,15 @@ std::vector<Deviation> MeasureDeviogram(const Heightfield& ground, const Terrain
                    params.roughness_scale * TargetDeviation(params.roughness, whole_m)});
   }
   return out;
+}
+
+std::string GroundId(const TerrainParams& params, std::uint64_t seed) {
+  core::Hash64 hash;
+  hash.Add(core::EmitYaml(core::WriteConfig(params)));
+  hash.Add(fmt::format("{}", seed));
+  const std::filesystem::path& heightmap = params.heightmap.file;
+  if (!heightmap.empty()) hash.Add(fmt::format(" {}", core::HashFile(heightmap).value_or(0)));
+  return fmt::format("{:016x}", hash.value());
 }
 
 }  // namespace scoria::terrains

@@ -58,4 +58,7 @@ struct Deviation {
 [[nodiscard]] std::vector<Deviation> MeasureDeviogram(const Heightfield& ground,
                                                       const TerrainParams& params);
 
+/// Names a ground: equal for equal parameters, seed and content of the heightmap, in hexadecimal.
+[[nodiscard]] std::string GroundId(const TerrainParams& params, std::uint64_t seed);
+
 }  // namespace scoria::terrains
