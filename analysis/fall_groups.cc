@@ -68,7 +68,7 @@ std::string DescribeGroups(const std::vector<FallGroup>& groups, std::size_t gro
   std::size_t places = 0, held = 0;
   while (2 * held <= falls) held += groups[places++].size();
   constexpr std::size_t kFew = 3, kFallsEach = 3;
-  const bool few = places <= kFew && held >= kFallsEach * places;
+  const bool few = places < groups.size() && places <= kFew && held >= kFallsEach * places;
   if (few)
     text +=
         fmt::format("; {} of them", places == 1 ? fmt::format("one place makes {}", held)

@@ -106,8 +106,9 @@ CaptionedFigure Map(const CampaignResults& results, const EpisodeRecord& e,
   figure.Line(fmt::format("set title '{}'", Escape(figure.title())));
   figure.Line("plot " + plots);
   return {std::move(figure),
-          fmt::format("{} falls at {} places. Falls within 1 m of each other are one place.", count,
-                      groups.size())};
+          fmt::format("{} {} at {} {}. Falls within 1 m of each other are one place.", count,
+                      count == 1 ? "fall" : "falls", groups.size(),
+                      groups.size() == 1 ? "place" : "places")};
 }
 
 }  // namespace

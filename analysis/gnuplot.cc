@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "core/files.h"
+#include "core/text.h"
 
 namespace scoria::analysis {
 namespace {

@@ -8,7 +8,7 @@
 #include <boost/archive/iterators/transform_width.hpp>
 #include <fmt/format.h>
 
-#include "core/files.h"
+#include "core/text.h"
 
 namespace scoria::analysis {
 namespace {

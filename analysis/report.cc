@@ -19,6 +19,7 @@
 #include "analysis/model_report.h"
 #include "analysis/tables.h"
 #include "core/files.h"
+#include "core/text.h"
 #include "core/folder_lock.h"
 
 namespace scoria::analysis {

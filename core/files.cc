@@ -31,25 +31,6 @@ int WriteToDisk(int file, std::string_view text) {
   return kept ? 0 : errno;
 }
 
-/// Bytes of the UTF-8 sequence that `text` begins with; 0 if it is none.
-std::size_t SequenceLength(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char lead = byte(0);
-  const std::size_t length = lead < 0x80                   ? 1
-                             : lead >= 0xc2 && lead < 0xe0 ? 2
-                             : lead >= 0xe0 && lead < 0xf0 ? 3
-                             : lead >= 0xf0 && lead < 0xf5 ? 4
-                                                           : 0;
-  if (length == 0 || length > text.size()) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xc0) != 0x80) return 0;
-  }
-  // Overlong forms, surrogates, and what is beyond U+10FFFF.
-  const bool forbidden = (lead == 0xe0 && byte(1) < 0xa0) || (lead == 0xed && byte(1) > 0x9f) ||
-                         (lead == 0xf0 && byte(1) < 0x90) || (lead == 0xf4 && byte(1) > 0x8f);
-  return forbidden ? 0 : length;
-}
-
 }  // namespace
 
 std::string ErrorText(int error) {
@@ -110,20 +91,6 @@ std::string FileNameOf(const std::string& text) {
   Hash64 hash;
   hash.Add(text);
   return fmt::format("{}-{:08x}", name, hash.value() & 0xffffffffu);
-}
-
-std::string PrintableText(std::string_view text) {
-  std::string out;
-  while (!text.empty()) {
-    const std::size_t length = SequenceLength(text);
-    if (length == 1) {
-      out += std::iscntrl(static_cast<unsigned char>(text[0])) != 0 ? ' ' : text[0];
-    } else {
-      out += length == 0 ? std::string_view("\ufffd") : text.substr(0, length);
-    }
-    text.remove_prefix(std::max<std::size_t>(length, 1));
-  }
-  return out;
 }
 
 }  // namespace scoria::core

@@ -38,7 +38,4 @@ void CreateFolders(const std::filesystem::path& path);
 /// follows, so that other texts have other names.
 [[nodiscard]] std::string FileNameOf(const std::string& text);
 
-/// `text` with every byte that is not UTF-8 replaced by U+FFFD and control characters by spaces.
-[[nodiscard]] std::string PrintableText(std::string_view text);
-
 }  // namespace scoria::core

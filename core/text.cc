@@ -7,6 +7,11 @@
 #include <utf8.h>
 
 namespace scoria::core {
+namespace {
+
+bool IsControl(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
+
+}  // namespace
 
 std::optional<std::size_t> FindInvalidUtf8(std::string_view text) {
   const auto at = utf8::find_invalid(text.begin(), text.end());
@@ -32,10 +37,24 @@ std::string Shown(std::string_view text, std::size_t longest) {
     }
     const auto start = at;
     utf8::unchecked::next(at);
-    const bool control = static_cast<unsigned char>(*start) < 0x20 || *start == 0x7f;
-    out += control ? " " : std::string(start, at);
+    out += IsControl(*start) ? " " : std::string(start, at);
   }
   return at == text.end() ? out : fmt::format("{}... ({} bytes)", out, text.size());
+}
+
+std::string PrintableText(std::string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    const auto valid_end = utf8::find_invalid(text.begin(), text.end());
+    const auto valid = static_cast<std::size_t>(valid_end - text.begin());
+    out += text.substr(0, valid);
+    text.remove_prefix(valid);
+    if (text.empty()) break;
+    out += "\ufffd";
+    text.remove_prefix(1);
+  }
+  std::replace_if(out.begin(), out.end(), IsControl, ' ');
+  return out;
 }
 
 std::string BlankXmlComments(std::string_view xml) {

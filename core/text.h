@@ -21,6 +21,9 @@ struct TextPlace {
 /// UTF-8 as \xHH, and cut after `longest` bytes with its whole length.
 [[nodiscard]] std::string Shown(std::string_view text, std::size_t longest = 60);
 
+/// `text` with every byte that is not UTF-8 replaced by U+FFFD and control characters by spaces.
+[[nodiscard]] std::string PrintableText(std::string_view text);
+
 /// XML with its comments as spaces; every other byte stays where it was.
 [[nodiscard]] std::string BlankXmlComments(std::string_view xml);
 

@@ -20,8 +20,9 @@ struct MassKalmanFilter {
 ///   m (v̇ + g) = Σ F,   c × m g = Σ r × F,   F = (Jᵀ)⁻¹ τ,
 /// with massless legs, c_z = 0, no rotation, in heading axes (inertial ones up to the yaw, so that
 /// c stays with the robot when it turns) and about B's origin, at single samples.
-/// Source: [Paper] eqs. EOM1, EOM2, KF1 to KF5; differs: nothing but the axes' yaw, unless other
-/// leg forces or no acceleration are asked for, to tell what each costs.
+/// Source: [Paper] eqs. EOM1, EOM2, KF1 to KF5; differs: the axes' yaw, and v̇ + g is the IMU's
+/// specific force, not moved to the centre of mass. Other leg forces or no acceleration can be
+/// chosen, to tell what each costs.
 class AdaptationKf final : public ModelAdapter {
  public:
   /// `robot` is borrowed.

@@ -71,8 +71,9 @@ class WindowExtremum {
 /// margin), the reference framework's rule. Differs: the least reading is taken only while the foot
 /// is known to be in the air, else the last one stays, so that standing for long, which raises the
 /// least reading to the load, does not turn into "no contact"; the threshold stays noise_counts
-/// above that least reading, so that a foot that hangs for long does not read as contact; extrema
-/// cover all samples, not one per update; and there is hysteresis.
+/// above that least reading, so that a foot that hangs for long does not read as contact, and at
+/// most max_threshold_counts; extrema cover all samples, not one per update; and there is
+/// hysteresis.
 class FootSensor {
  public:
   FootSensor(const FootSensorParams& params, double step_s) noexcept;

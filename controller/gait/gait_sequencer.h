@@ -132,6 +132,7 @@ struct SpeedParams {
 
 /// Walking slower than a Froude number, the legs take the offsets of a walk. Source: the reference
 /// framework's `switch_offsets`, which its real Go2 has on (0.02, 0.5 s); the paper trots only.
+/// Differs: the speed must ask for the other offsets without a break; there, once is enough.
 struct SlowWalkParams {
   double walk_below_froude = 0.0;
   double offset_delay_s = 0.5;

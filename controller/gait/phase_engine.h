@@ -36,9 +36,9 @@ struct StandParams {
 
 /// The phase of every leg, kept consistent while the timing changes. Stage two of the adaptive gait
 /// sequencer; with constant timing it is the clock of a fixed gait. Source: paper, adaptive gait
-/// sequencer, phase update and offset correction. Differences: a correction never moves a leg
-/// within one correction step of lift-off (so it cannot cause one), and offset errors wrap to
-/// [-0.5, 0.5].
+/// sequencer, phase update and offset correction. Differences: phases are rescaled to the new duty
+/// factor before they advance, and a correction never moves a leg within one correction step of
+/// lift-off (so it cannot cause one).
 class PhaseEngine {
  public:
   /// One step of dt under `timing`; legs in `touched_down` end their swing at once. Without

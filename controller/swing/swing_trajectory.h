@@ -15,7 +15,9 @@ struct SwingParams {
   template <class Archive>
   void Serialize(Archive& a) {
     a.Field("apex_m", apex_m,
-            {.min = 0.0, .max = 0.5, .doc = "height over the higher end of the step"});
+            {.min = 0.0,
+             .max = 0.5,
+             .doc = "height over both ends of the step and the ground plane half-way"});
     a.Field("retarget_until", retarget_until,
             {.min = 0.0, .max = 1.0, .doc = "swing progress after which the foothold is fixed"});
     a.Field("lower_speed_mps", lower_speed_mps,

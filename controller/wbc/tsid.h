@@ -10,7 +10,8 @@ namespace scoria::controller {
 /// Whole-body control by task-space inverse dynamics: tracks COM, trunk orientation, swing feet and
 /// MPC forces in a weighted least-squares sense, subject to the equations of motion, non-moving
 /// contacts, friction pyramids and torque limits. Contacts roll: the constrained point is the
-/// sphere's lowest one, not its centre. Source: paper, whole-body control.
+/// sphere's lowest one, not its centre. Source: paper, whole-body control; differs: a contact that
+/// moves is braked (contact_damping_per_s), pyramids stand on the ground plane.
 class Tsid final : public WholeBodyController {
  public:
   /// `robot` is borrowed.

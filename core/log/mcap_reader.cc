@@ -5,6 +5,7 @@
 #include <lz4frame.h>
 #include <zstd.h>
 
+#include "core/file_kind.h"
 #include "core/log/mcap.h"
 #include "core/log/mcap_format.h"
 
@@ -91,6 +92,17 @@ Bytes Decompress(const std::string& compression, std::span<const std::byte> pack
   return out;
 }
 
+/// What a file is that does not begin as an MCAP file does.
+std::string WhatElse(const std::filesystem::path& path) {
+  constexpr std::size_t kHead = 4096;
+  std::string head(kHead, '\0');
+  std::ifstream in(path, std::ios::binary);
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(in.gcount()));
+  const FileKind kind = KindOfContent(head);
+  return kind.name.empty() ? "not an MCAP file" : NotOfKind(kind, "an MCAP file");
+}
+
 /// Reads (opcode, body) records off a file and says where it stands.
 class RecordStream {
  public:
@@ -98,9 +110,8 @@ class RecordStream {
     if (!in_) throw std::runtime_error(fmt::format("{}: cannot read the file", path.string()));
     std::array<unsigned char, 8> magic{};
     in_.read(reinterpret_cast<char*>(magic.data()), magic.size());
-    if (in_.gcount() != 8 || magic != kMagic) {
-      throw std::runtime_error(fmt::format("{}: not an MCAP file", path.string()));
-    }
+    if (in_.gcount() != 8 || magic != kMagic)
+      throw std::runtime_error(fmt::format("{}: {}", path.string(), WhatElse(path)));
     size_ = std::filesystem::file_size(path);
     position_ = kMagic.size();
   }

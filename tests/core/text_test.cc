@@ -93,5 +93,16 @@ TEST(FileKind, MessageNamesKindWishAndHint) {
   EXPECT_EQ(NotOfKind(KindOfContent("%PDF-1.4"), "a YAML file"), "is a PDF, not a YAML file");
 }
 
+TEST(PrintableText, ReplacesWhatIsNotUtf8AndControls) {
+  EXPECT_EQ(PrintableText("Rückweg 歩 𝛑"), "Rückweg 歩 𝛑");
+  EXPECT_EQ(PrintableText("R\xfc"
+                          "ck"),
+            "R\ufffdck");
+  EXPECT_EQ(PrintableText("\xc0\xaf"), "\ufffd\ufffd") << "overlong";
+  EXPECT_EQ(PrintableText("\xed\xa0\x80"), "\ufffd\ufffd\ufffd") << "a surrogate";
+  EXPECT_EQ(PrintableText("\xe2\x82"), "\ufffd\ufffd") << "cut";
+  EXPECT_EQ(PrintableText("a\nb\x1b[0m"), "a b [0m");
+}
+
 }  // namespace
 }  // namespace scoria::core
