@@ -166,10 +166,12 @@ CaptionedFigure CostFigure(const CampaignResults& results, const char* name, con
   } else {
     figure.Line("plot " + plots + (fits.empty() ? "" : ", " + fits));
   }
-  return {std::move(figure),
-          fmt::format("One point per steady five-second window (a speed v). Fitted robustly: {}. Band: 95 % by "
-                      "resampling episodes.",
-                      formulas.empty() ? "nothing" : formulas)};
+  return {
+      std::move(figure),
+      fmt::format(
+          "One point per steady five-second window (a speed v). Fitted robustly: {}. Band: 95 % by "
+          "resampling episodes.",
+          formulas.empty() ? "nothing" : formulas)};
 }
 
 CaptionedFigure TrackingFigure(const CampaignResults& results) {

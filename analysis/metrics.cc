@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kChord_s = 0.5;
 constexpr double kWindow_s = 5.0;
-constexpr double kSettle_s = 3.0;  // after the command changed, a placement or a fallback
+constexpr double kSettle_s = 3.0;      // after the command changed, a placement or a fallback
 constexpr double kBeforeFall_s = 1.0;  // the tumble is no steady walking
 // A command that differs by less than this and this share of the speed is the same: steering along
 // a route.

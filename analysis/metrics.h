@@ -79,8 +79,8 @@ struct FallEvent {
 /// Everything reported of one episode. Definitions: docs/METRICS.md.
 struct EpisodeMetrics {
   double duration_s = 0.0, walking_s = 0.0;
-  double distance_m = 0.0;  // half-second chords of the trunk's path, placements excluded
-  double mass_kg = 0.0;     // of the last row
+  double distance_m = 0.0;   // half-second chords of the trunk's path, placements excluded
+  double mass_kg = 0.0;      // of the last row
   double transport_J = 0.0;  // ∫ m g ds over the distance: what cost of transport is relative to
   Energy energy;             // while walking
   EnergyBudget budget;

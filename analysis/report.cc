@@ -19,8 +19,8 @@
 #include "analysis/model_report.h"
 #include "analysis/tables.h"
 #include "core/files.h"
-#include "core/text.h"
 #include "core/folder_lock.h"
+#include "core/text.h"
 
 namespace scoria::analysis {
 namespace {

@@ -82,8 +82,8 @@ void AddBand(const std::vector<std::vector<CurvePoint>>& clusters, int terms, st
   for (int r = 0; r < kResamples; ++r) {
     std::vector<CurvePoint> resampled;
     for (std::size_t i = 0; i < clusters.size(); ++i) {
-      const auto& pick = clusters[static_cast<std::size_t>(
-          rng.NextUniform() * static_cast<double>(clusters.size()))];
+      const auto& pick = clusters[static_cast<std::size_t>(rng.NextUniform() *
+                                                           static_cast<double>(clusters.size()))];
       resampled.insert(resampled.end(), pick.begin(), pick.end());
     }
     const Eigen::Vector3d c = FitRobustly(resampled, terms);
@@ -218,7 +218,6 @@ Interval BootstrapRateRatio(std::span<const PairedCounts> terrains, std::uint64_
   const double alpha = 1.0 - confidence;
   return {Quantile(ratios, alpha / 2.0), Quantile(ratios, 1.0 - alpha / 2.0)};
 }
-
 
 CurveFit FitCostCurve(std::span<const CurvePoint> points, int terms, std::uint64_t seed) {
   CurveFit fit;

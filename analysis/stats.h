@@ -79,7 +79,7 @@ struct Dispersion {
 struct CurveFit {
   bool valid = false;
   double a = 0.0, b = 0.0, c = 0.0;
-  double r2 = 0.0;  // of all points, whatever weight the fit gave them
+  double r2 = 0.0;                      // of all points, whatever weight the fit gave them
   std::vector<double> x, y, low, high;  // curve and 95 % band on a grid over the data's range
 };
 /// A point of the curve. Points of one cluster (an episode) are not independent of each other.

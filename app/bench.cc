@@ -182,8 +182,7 @@ void BenchPhysics(const Options& o) {
   for (int i = 0; i < kSteps; ++i) {
     const core::Stopwatch watch;
     const RobotState& now = world.truth().state;
-    world.Step(
-        actuation.Update(command, {now.q, now.qd}, now.qd, scenario.physics.step_s));
+    world.Step(actuation.Update(command, {now.q, now.qd}, now.qd, scenario.physics.step_s));
     us.push_back(watch.seconds() * kUsPerS);
   }
   const nlohmann::json json = {{"physics", Spread(us)}};

@@ -153,8 +153,7 @@ std::vector<Cell> FindPath(const CostMap& map, Cell from, Cell to) {
       for (int dc = -1; dc <= 1; ++dc) {
         const Cell next{c.column + dc, c.row + dr};
         if ((dr == 0 && dc == 0) || !map.Contains(next)) continue;
-        const double cost =
-            best[index] + std::hypot(dc, dr) * 0.5 * (map.Cost(c) + map.Cost(next));
+        const double cost = best[index] + std::hypot(dc, dr) * 0.5 * (map.Cost(c) + map.Cost(next));
         const std::size_t n = map.Index(next);
         if (cost >= best[n] - kRounding) continue;
         best[n] = cost;

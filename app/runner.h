@@ -38,10 +38,10 @@ struct EpisodeResult {
   int falls = 0, stuck = 0;
   std::vector<analysis::FallEvent> fall_events;  // as many as falls
   Route route;                                   // the operator's; empty without one
-  std::uint64_t state_hash = 0;        // over every state that was hashed on the way
-  Counters counters, injected;         // what did not go to plan; which of it was played
-  std::int64_t unconverged_steps = 0;  // of the physics' contact solver
-  core::StageTimes times;              // wall clock, without set-up
+  std::uint64_t state_hash = 0;                  // over every state that was hashed on the way
+  Counters counters, injected;                   // what did not go to plan; which of it was played
+  std::int64_t unconverged_steps = 0;            // of the physics' contact solver
+  core::StageTimes times;                        // wall clock, without set-up
 };
 
 /// Walks one episode: sensors -> controller -> actuation -> world, every physics step. The same

@@ -328,8 +328,7 @@ void Controller::Act(const Transition& transition) noexcept {
     upright.state.R_WB = core::ExpSo3(-xi_W) * upright.state.R_WB;
     estimator_->Continue(upright, params_.supervisor.doubt);
   }
-  if (transition.watch == Watch::kContact)
-    contact_->SetChoice(ContactChoiceInForce());
+  if (transition.watch == Watch::kContact) contact_->SetChoice(ContactChoiceInForce());
 }
 
 /// The chosen source, or the hierarchy while the supervisor has fallen back on it.

@@ -39,10 +39,9 @@ class Actuation {
                                              const LegArray<Vec3>& qd, double dt_s) noexcept;
 
   /// Meters the energy of the step that Update's torques have just driven. The work of a constant
-  /// torque over a semi-implicit step is τ times the mean of the true speeds before and after it, as
-  /// in the energy ledger (World).
-  void Meter(const LegArray<Vec3>& qd_before, const LegArray<Vec3>& qd_after,
-             double dt_s) noexcept;
+  /// torque over a semi-implicit step is τ times the mean of the true speeds before and after it,
+  /// as in the energy ledger (World).
+  void Meter(const LegArray<Vec3>& qd_before, const LegArray<Vec3>& qd_after, double dt_s) noexcept;
 
   /// Motor torques of the last step, before friction.
   [[nodiscard]] const LegArray<Vec3>& motor_tau_Nm() const noexcept { return motor_tau_Nm_; }

@@ -96,8 +96,8 @@ int OutputGuard::TurnBackAtLimits(const JointRange& range, const SafetyParams& p
   return turned;
 }
 
-JointCommand OutputGuard::Check(const JointCommand& command, const RobotState& state, GuardMode mode,
-                                Counters& counters) noexcept {
+JointCommand OutputGuard::Check(const JointCommand& command, const RobotState& state,
+                                GuardMode mode, Counters& counters) noexcept {
   const bool tilted = !(state.R_WB(2, 2) >= std::cos(params_.tilt_stop_rad));  // also if not finite
   if (tilted && !tilted_ && !stopped_) counters.Add(Count::kTiltStop);
   tilted_ = tilted;
@@ -110,7 +110,8 @@ JointCommand OutputGuard::Check(const JointCommand& command, const RobotState& s
   for (const Leg leg : kLegs)
     safe.tau_Nm[leg] = safe.tau_Nm[leg].cwiseMax(-effort_Nm_[leg]).cwiseMin(effort_Nm_[leg]);
   const JointRange& range = mode == GuardMode::kWalk ? working_ : limits_;
-  counters.Add(Count::kJointLimit, static_cast<std::uint64_t>(TurnBackAtLimits(range, params_, state, safe)));
+  counters.Add(Count::kJointLimit,
+               static_cast<std::uint64_t>(TurnBackAtLimits(range, params_, state, safe)));
   return safe;
 }
 

@@ -44,8 +44,8 @@ struct SafetyParams {
 };
 
 /// How a command came about. Walking, joints also keep to the working range, and a tilt stop lasts
-/// until the next start. Standing up, a folded leg is beyond that range, and the attitude is what the
-/// accelerometer of a robot that may still move shows: beyond the tilt it is damped meanwhile.
+/// until the next start. Standing up, a folded leg is beyond that range, and the attitude is what
+/// the accelerometer of a robot that may still move shows: beyond the tilt it is damped meanwhile.
 enum class GuardMode { kStandUp, kWalk };
 
 /// The last word on every command: what is not finite, or comes from a robot that has tipped over,

@@ -45,8 +45,9 @@ TEST(Replay, PlaysTheSolverFaultsOfTheLog) {
   RunOptions options;
   options.folder = folder.path();
   (void)RunToFolder(
-      test::LoadScenario("rough", {"duration_s=6", "solver_faults.share=0.05",
-                                   "solver_faults.outages=[{at_s: 3, duration_s: 0.5, solver: mpc}]"}),
+      test::LoadScenario("rough",
+                         {"duration_s=6", "solver_faults.share=0.05",
+                          "solver_faults.outages=[{at_s: 3, duration_s: 0.5, solver: mpc}]"}),
       options);
   const ReplayResult same = ReplayLog(folder.path() / "log.mcap", {});
   EXPECT_EQ(same.steps, 6000);

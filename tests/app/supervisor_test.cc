@@ -57,10 +57,9 @@ INSTANTIATE_TEST_SUITE_P(Watches, SupervisorScenario,
 // The gait changes while the contact stage is on its fallback: the fallback stays engaged.
 TEST(SupervisorScenario, ChangeOfTheControllerKeepsTheContactFallback) {
   const Scenario scenario = test::LoadScenario(
-      "supervisor/contact",
-      {"controller_changes=[{at_s: 8, set: [gait.type=sgs]}, {at_s: 9, set: "
-       "[contact.touchdown_delay_s=0.003]}]",
-       "duration_s=12"});
+      "supervisor/contact", {"controller_changes=[{at_s: 8, set: [gait.type=sgs]}, {at_s: 9, set: "
+                             "[contact.touchdown_delay_s=0.003]}]",
+                             "duration_s=12"});
   const core::RobotDescription robot = core::LoadRobot(scenario.robot);
   const terrains::Heightfield ground =
       terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);

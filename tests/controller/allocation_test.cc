@@ -50,8 +50,7 @@ TEST(Controller, StepNeverAllocates) {
         out = &controller.Step(z, command);
         allocations += guard.count();
       }
-      world.Step(
-          actuation.Update(out->command, {z.q, z.qd}, world.truth().state.qd, 0.001));
+      world.Step(actuation.Update(out->command, {z.q, z.qd}, world.truth().state.qd, 0.001));
     }
     EXPECT_EQ(allocations, 0);
     EXPECT_GT(world.truth().state.p_WB.x(), 0.3) << "it walked";

@@ -33,7 +33,8 @@ TEST(OutputGuard, NothingThatIsNotFiniteReachesAMotor) {
     LegArray<Vec3>* const fields[] = {&command.q, &command.qd, &command.tau_Nm,
                                       &command.kp_Nm_per_rad, &command.kd_Nms_per_rad};
     (*fields[field])[Leg::kHR].y() = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_EQ(guard.Check(command, test::StandingState(), GuardMode::kWalk, counters), guard.Damping());
+    EXPECT_EQ(guard.Check(command, test::StandingState(), GuardMode::kWalk, counters),
+              guard.Damping());
   }
   EXPECT_EQ(counters[Count::kDamping], 5u);
 }
@@ -57,7 +58,8 @@ TEST(OutputGuard, TurnsAJointBackAtItsLimitButLetsItComeIn) {
   RobotState state = test::StandingState();
   const double upper = test::Go2().legs[Leg::kFL].joints[1].upper_rad;
   state.q[Leg::kFL].y() = upper + 0.01;
-  EXPECT_EQ(guard.Check(Torques(-5.0), state, GuardMode::kWalk, counters).tau_Nm[Leg::kFL].y(), -5.0);
+  EXPECT_EQ(guard.Check(Torques(-5.0), state, GuardMode::kWalk, counters).tau_Nm[Leg::kFL].y(),
+            -5.0);
   const JointCommand safe = guard.Check(Torques(5.0), state, GuardMode::kWalk, counters);
   EXPECT_LT(safe.kp_Nm_per_rad[Leg::kFL].y() * (safe.q[Leg::kFL].y() - state.q[Leg::kFL].y()), 0.0);
   EXPECT_EQ(safe.tau_Nm[Leg::kFL].y(), 0.0);
@@ -77,7 +79,8 @@ TEST(OutputGuard, KeepsAKneeFromFoldingThroughStraight) {
   const JointCommand safe = guard.Check(Torques(5.0), state, GuardMode::kWalk, counters);
   EXPECT_LT(safe.kp_Nm_per_rad[Leg::kFL].z() * (safe.q[Leg::kFL].z() - state.q[Leg::kFL].z()), 0.0);
   EXPECT_EQ(counters[Count::kJointLimit], 1u);
-  EXPECT_EQ(guard.Check(Torques(-5.0), state, GuardMode::kWalk, counters).tau_Nm[Leg::kFL].z(), -5.0);
+  EXPECT_EQ(guard.Check(Torques(-5.0), state, GuardMode::kWalk, counters).tau_Nm[Leg::kFL].z(),
+            -5.0);
 }
 
 TEST(StandInPlan, SharesTheWeightAmongTheFeetThatStand) {
