@@ -141,7 +141,8 @@ CaptionedFigure CostFigure(const CampaignResults& results, const char* name, con
     if (fit.valid) {
       std::vector<std::vector<double>> curve;
       for (std::size_t i = 0; i < fit.x.size(); ++i)
-        curve.push_back({fit.x[i], fit.y[i], fit.low[i], fit.high[i]});
+        curve.push_back({fit.x[i], fit.y[i], fit.low.empty() ? kNan : fit.low[i],
+                         fit.high.empty() ? kNan : fit.high[i]});
       figure.Data(fmt::format("f{}", a), curve);
       title += fmt::format(" (r^2 = {:.2f}, n = {})", fit.r2, rows.size());
       formulas += fmt::format("{}{}: {}", formulas.empty() ? "" : "; ", results.arms[a],
@@ -170,7 +171,7 @@ CaptionedFigure CostFigure(const CampaignResults& results, const char* name, con
       std::move(figure),
       fmt::format(
           "One point per steady five-second window (a speed v). Fitted robustly: {}. Band: 95 % by "
-          "resampling episodes.",
+          "resampling episodes of the same speed; none with too few of them.",
           formulas.empty() ? "nothing" : formulas)};
 }
 

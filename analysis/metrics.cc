@@ -250,6 +250,8 @@ void MetricsAccumulator::AddTracking(const core::LogRow& row) {
 }
 
 EpisodeMetrics MetricsAccumulator::Finish() {
+  // A fall that ends the episode has no row of its own.
+  if (in_stretch_ && !metrics_.falls.empty()) DropWindowBefore(metrics_.falls.back().time_s);
   EndStretch();
   CloseBudget();
   EpisodeMetrics m = metrics_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -30,9 +31,10 @@ struct ModelInterval {
   double com_x_rmse_m = 0.0, com_y_rmse_m = 0.0;  // of the settled part
   // Of the judged rows from kLate_s after the change on, settled or not.
   std::uint64_t late_rows = 0;
-  double late_bias_kg = 0.0, late_noise_kg = 0.0;             // mean, standard deviation
-  double late_com_x_bias_m = 0.0, late_com_y_bias_m = 0.0;    // means
-  double late_com_x_noise_m = 0.0, late_com_y_noise_m = 0.0;  // standard deviations
+  double late_bias_kg = 0.0, late_noise_kg = 0.0;           // mean, standard deviation
+  double late_com_x_bias_m = 0.0, late_com_y_bias_m = 0.0;  // means
+  // Standard deviations; results of version 0.1.0 lack them.
+  std::optional<double> late_com_x_noise_m = std::nullopt, late_com_y_noise_m = std::nullopt;
   std::uint64_t used_rows = 0;
   double used_bias_kg =
       0.0;  // mean of used minus true, of the settled part or for want of it of all

@@ -103,8 +103,8 @@ struct LateValues {
       noise_kg.push_back(i.late_noise_kg);
       com_x_bias_m.push_back(i.late_com_x_bias_m);
       com_y_bias_m.push_back(i.late_com_y_bias_m);
-      com_x_noise_m.push_back(i.late_com_x_noise_m);
-      com_y_noise_m.push_back(i.late_com_y_noise_m);
+      if (i.late_com_x_noise_m) com_x_noise_m.push_back(*i.late_com_x_noise_m);
+      if (i.late_com_y_noise_m) com_y_noise_m.push_back(*i.late_com_y_noise_m);
       if (before != nullptr && i.step_kg != 0.0)
         step_share.push_back(1.0 + (i.late_bias_kg - before->late_bias_kg) / i.step_kg);
       before = &i;

@@ -61,9 +61,11 @@ void ReadResult(const fs::path& folder, EpisodeRecord& episode) {
 CampaignResults LoadRun(const fs::path& folder) {
   CampaignResults results;
   EpisodeRecord episode;
-  ReadResult(folder, episode);
   const json j = json::parse(core::ReadText(folder / "result.json"), nullptr, false);
-  const auto name = j.is_object() ? j.find("scenario") : j.end(), end = j.end();
+  const auto find = [&](const char* key) { return j.is_object() ? j.find(key) : j.end(); };
+  const auto name = find("scenario"), seed = find("seed"), end = j.end();
+  if (seed != end && seed->is_number_unsigned()) episode.seed = seed->get<std::uint64_t>();
+  ReadResult(folder, episode);
   results.name = name != end && name->is_string() ? name->get<std::string>()
                                                   : fs::absolute(folder).filename().string();
   episode.id = episode.arm = results.name;

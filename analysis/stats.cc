@@ -73,18 +73,44 @@ Eigen::Vector3d FitRobustly(std::span<const CurvePoint> points, int terms) {
   return c;
 }
 
-/// Percentiles of the curves through resampled clusters, at the points of the fit's grid.
-void AddBand(const std::vector<std::vector<CurvePoint>>& clusters, int terms, std::uint64_t seed,
-             CurveFit& fit) {
+/// The points of one episode, and those of the episodes of one speed.
+using Cluster = std::vector<CurvePoint>;
+using Stratum = std::vector<Cluster>;
+
+/// Clusters by their mean x, in steps of 0.1: a design of several speeds is resampled within each,
+/// so that no resample lacks one.
+std::vector<Stratum> StrataOf(std::span<const CurvePoint> points) {
+  std::map<std::size_t, Cluster> clusters;
+  for (const CurvePoint& p : points) clusters[p.cluster].push_back(p);
+  std::map<long, Stratum> strata;
+  for (auto& [number, cluster] : clusters) {
+    double mean = 0.0;
+    for (const CurvePoint& p : cluster) mean += p.x / static_cast<double>(cluster.size());
+    strata[std::lround(10.0 * mean)].push_back(std::move(cluster));
+  }
+  std::vector<Stratum> list;
+  for (auto& [speed, stratum] : strata) list.push_back(std::move(stratum));
+  return list;
+}
+
+/// Percentiles of the curves through resampled clusters, at the points of the fit's grid. None from
+/// fewer clusters than can be resampled.
+void AddBand(const std::vector<Stratum>& strata, int terms, std::uint64_t seed, CurveFit& fit) {
   constexpr int kResamples = 400;
+  constexpr std::size_t kLeastClusters = 5;
+  std::size_t clusters = 0;
+  for (const Stratum& stratum : strata) clusters += stratum.size();
+  if (clusters < std::max(kLeastClusters, 3 * strata.size())) return;
   core::Rng rng(seed, 1, core::Stream::kBootstrap);
   std::vector<std::vector<double>> samples(fit.x.size());
   for (int r = 0; r < kResamples; ++r) {
-    std::vector<CurvePoint> resampled;
-    for (std::size_t i = 0; i < clusters.size(); ++i) {
-      const auto& pick = clusters[static_cast<std::size_t>(rng.NextUniform() *
-                                                           static_cast<double>(clusters.size()))];
-      resampled.insert(resampled.end(), pick.begin(), pick.end());
+    Cluster resampled;
+    for (const Stratum& stratum : strata) {
+      for (std::size_t i = 0; i < stratum.size(); ++i) {
+        const Cluster& pick = stratum[static_cast<std::size_t>(
+            rng.NextUniform() * static_cast<double>(stratum.size()))];
+        resampled.insert(resampled.end(), pick.begin(), pick.end());
+      }
     }
     const Eigen::Vector3d c = FitRobustly(resampled, terms);
     for (std::size_t i = 0; i < samples.size(); ++i) samples[i].push_back(Evaluate(c, fit.x[i]));
@@ -229,13 +255,11 @@ CurveFit FitCostCurve(std::span<const CurvePoint> points, int terms, std::uint64
   fit.a = c[2];
   double mean = 0.0, residual = 0.0, total = 0.0, low = kInfinity, high = -kInfinity;
   for (const CurvePoint& p : points) mean += p.y / static_cast<double>(points.size());
-  std::map<std::size_t, std::vector<CurvePoint>> clusters;
   for (const CurvePoint& p : points) {
     residual += std::pow(p.y - Evaluate(c, p.x), 2);
     total += std::pow(p.y - mean, 2);
     low = std::min(low, p.x);
     high = std::max(high, p.x);
-    clusters[p.cluster].push_back(p);
   }
   fit.r2 = total > 0.0 ? 1.0 - residual / total : 0.0;
   constexpr int kGrid = 40;
@@ -243,9 +267,7 @@ CurveFit FitCostCurve(std::span<const CurvePoint> points, int terms, std::uint64
     fit.x.push_back(low + (high - low) * i / (kGrid - 1.0));
     fit.y.push_back(Evaluate(c, fit.x.back()));
   }
-  std::vector<std::vector<CurvePoint>> episodes;
-  for (auto& [cluster, members] : clusters) episodes.push_back(std::move(members));
-  AddBand(episodes, terms, seed, fit);
+  AddBand(StrataOf(points), terms, seed, fit);
   return fit;
 }
 

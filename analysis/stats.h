@@ -79,8 +79,9 @@ struct Dispersion {
 struct CurveFit {
   bool valid = false;
   double a = 0.0, b = 0.0, c = 0.0;
-  double r2 = 0.0;                      // of all points, whatever weight the fit gave them
-  std::vector<double> x, y, low, high;  // curve and 95 % band on a grid over the data's range
+  double r2 = 0.0;                // of all points, whatever weight the fit gave them
+  std::vector<double> x, y;       // curve on a grid over the data's range
+  std::vector<double> low, high;  // its 95 % band; empty with too few clusters
 };
 /// A point of the curve. Points of one cluster (an episode) are not independent of each other.
 struct CurvePoint {
@@ -88,7 +89,8 @@ struct CurvePoint {
   std::size_t cluster = 0;
 };
 /// Iteratively reweighted least squares with Huber's weights ([Huber1964]) on the scale of the
-/// median absolute residual; the band resamples whole clusters.
+/// median absolute residual; the band resamples whole clusters among those of the same mean x
+/// (steps of 0.1). Five clusters, three for each mean x on average, are the least for a band.
 /// @param terms how many of b, c x, a / x the data can carry: at most the number of distinct
 /// commanded speeds, 1 to 3.
 [[nodiscard]] CurveFit FitCostCurve(std::span<const CurvePoint> points, int terms,

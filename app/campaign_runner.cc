@@ -218,15 +218,16 @@ class CampaignRunner {
     });
   }
 
-  /// What the disk refuses ends the campaign in good order: those that run may finish.
+  /// What the system refuses (disk, process, a folder in use) ends the campaign in good order:
+  /// those that run may finish.
   template <class Action>
   void Guarded(Action action) {
     try {
       action();
-    } catch (const core::FileError& e) {
-      outcome_.disk_problem = e.what();
     } catch (const fs::filesystem_error& e) {
       outcome_.disk_problem = core::FileError(e.path1(), "refused", e.code().value()).what();
+    } catch (const std::runtime_error& e) {
+      outcome_.disk_problem = e.what();
     }
   }
 

@@ -92,11 +92,15 @@ void RemoveOldRun(const std::filesystem::path& folder) {
 EpisodeReport RunToFolder(const Scenario& scenario, const RunOptions& options) {
   const InputHashes inputs = InputHasher().Hash(scenario);  // before the files are read
   const core::RobotDescription robot = core::LoadRobot(scenario.robot);
-  core::CreateFolders(options.folder);
-  RemoveOldRun(options.folder);
-  core::WriteText(options.folder / "scenario.yaml", EffectiveYaml(scenario));
+  if (!options.save_qps.empty() && !scenario.controller_changes.empty())
+    throw std::runtime_error(
+        "--save-qps: the scenario has controller_changes, the saved problems "
+        "would not be of one kind");
   const terrains::Terrain made = terrains::MakeTerrain(scenario.terrain, scenario.seed, 0);
   const terrains::Heightfield& ground = made.ground;
+  core::CreateFolders(options.folder);  // what is wrong with the input was told before
+  RemoveOldRun(options.folder);
+  core::WriteText(options.folder / "scenario.yaml", EffectiveYaml(scenario));
   if (options.on_warning) Warn(scenario, robot, made, options.on_warning);
   nlohmann::json terrain = analysis::ToJson(terrains::MeasureTerrain(ground, scenario.terrain));
   terrain["cut_nodes"] = made.cut_nodes;
@@ -119,10 +123,6 @@ EpisodeReport RunToFolder(const Scenario& scenario, const RunOptions& options) {
     if (kind == "fall") ++falls;
     if (options.on_event) options.on_event(time_s, kind, detail);
   };
-  if (!options.save_qps.empty() && !scenario.controller_changes.empty())
-    throw std::runtime_error(
-        "--save-qps: the scenario has controller_changes, the saved problems "
-        "would not be of one kind");
   std::optional<QpRecorder> qps;
   if (!options.save_qps.empty()) {
     qps.emplace(options.save_qps, scenario.controller);

@@ -28,9 +28,14 @@ Place Operator::start() const noexcept {
   return {route_.front(), HeadingAt(0)};
 }
 
+/// Near where the robot has come to, so that a route that passes near itself does not send it back
+/// or ahead.
 std::size_t Operator::NearestOnRoute(const Vec2& p_W) const noexcept {
-  std::size_t nearest = 0;
-  for (std::size_t i = 1; i < route_.size(); ++i) {
+  constexpr std::size_t kBehind = 20, kAhead = 100;  // points
+  const std::size_t size = route_.size(), behind = std::min(kBehind, size - 1);
+  std::size_t nearest = progress_;
+  for (std::size_t k = 0; k < std::min(behind + kAhead, size); ++k) {
+    const std::size_t i = (progress_ + size - behind + k) % size;
     if ((route_[i] - p_W).squaredNorm() < (route_[nearest] - p_W).squaredNorm()) nearest = i;
   }
   return nearest;

@@ -61,7 +61,9 @@ class Operator {
   [[nodiscard]] Place start() const noexcept;
   [[nodiscard]] const Route& route() const noexcept { return route_; }
   /// The robot was set down: the way goes on from there.
-  void Resume(const Place& place) noexcept { progress_ = NearestOnRoute(place.p_WB); }
+  void Resume(const Place& place) noexcept {
+    if (!route_.empty()) progress_ = NearestOnRoute(place.p_WB);
+  }
 
  private:
   [[nodiscard]] std::size_t NearestOnRoute(const Vec2& p_W) const noexcept;

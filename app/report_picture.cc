@@ -16,18 +16,18 @@ namespace fs = std::filesystem;
 
 /// Logs of episodes with falls first, then those of others, then any other log below the folder.
 std::vector<fs::path> LogsOf(const fs::path& folder) {
-  std::vector<fs::path> with_falls, others;
+  std::vector<fs::path> logs, others;
   for (const analysis::EpisodeRecord& e : analysis::LoadResults(folder).episodes) {
     const fs::path log = e.folder / "log.mcap";
-    if (fs::exists(log)) (e.metrics.falls.empty() ? others : with_falls).push_back(log);
+    if (fs::exists(log)) (e.metrics.falls.empty() ? others : logs).push_back(log);
   }
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    const bool known =
-        std::find(with_falls.begin(), with_falls.end(), entry.path()) != with_falls.end();
-    if (entry.path().filename() == "log.mcap" && !known) others.push_back(entry.path());
+  logs.insert(logs.end(), others.begin(), others.end());
+  constexpr auto kSkip = fs::directory_options::skip_permission_denied;
+  for (const auto& entry : fs::recursive_directory_iterator(folder, kSkip)) {
+    const bool known = std::find(logs.begin(), logs.end(), entry.path()) != logs.end();
+    if (entry.path().filename() == "log.mcap" && !known) logs.push_back(entry.path());
   }
-  with_falls.insert(with_falls.end(), others.begin(), others.end());
-  return with_falls;
+  return logs;
 }
 
 /// The rows up to a fall, or up to the middle of the walk.
@@ -51,16 +51,28 @@ analysis::ReportPicture Draw(const fs::path& log, const analysis::LogContent& co
                             until_s)};
 }
 
+std::optional<analysis::ReportPicture> TryToDraw(const fs::path& log) {
+  try {
+    const analysis::LogContent content = analysis::ReadLog(log);
+    if (!content.rows.empty()) return Draw(log, content);
+  } catch (const std::exception&) {
+    // Another log may do.
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<analysis::ReportPicture> MakeReportPicture(const fs::path& folder) {
-  for (const fs::path& log : LogsOf(folder)) {
-    try {
-      const analysis::LogContent content = analysis::ReadLog(log);
-      if (!content.rows.empty()) return Draw(log, content);
-    } catch (const std::exception&) {
-      continue;  // a picture less is no reason to lose the report
+  constexpr std::size_t kTries = 3;  // a machine without OpenGL has no picture of any log
+  try {
+    std::vector<fs::path> logs = LogsOf(folder);
+    logs.resize(std::min(logs.size(), kTries));
+    for (const fs::path& log : logs) {
+      if (auto picture = TryToDraw(log)) return picture;
     }
+  } catch (const std::exception&) {
+    // A picture less is no reason to lose the report.
   }
   return std::nullopt;
 }

@@ -195,7 +195,7 @@ Cell BestCellNear(const CostMap& map, const Vec2& p_W, double radius_m) {
 Route PlanRoute(const RouteParams& params, const core::RobotDescription& robot,
                 const terrains::Heightfield& ground) {
   constexpr int kCorners = 8;
-  constexpr double kMargin_m = 2.0, kSmallestLoop_m = 0.5, kCornerRoomShare = 0.2;
+  constexpr double kMargin_m = 2.0, kSmallestLoop_m = 0.5, kCornerRoomShare = 0.2, kEdge_m = 1.0;
   const double radius_m = std::min(params.loop_radius_m, ground.half_size_m() - kMargin_m);
   if (radius_m < kSmallestLoop_m) {
     throw core::ConfigError(
@@ -204,11 +204,13 @@ Route PlanRoute(const RouteParams& params, const core::RobotDescription& robot,
                     2.0 * (kMargin_m + kSmallestLoop_m)));
   }
   const CostMap map(params, robot, ground);
+  const double corner_room_m =
+      std::min(kCornerRoomShare * radius_m, ground.half_size_m() - radius_m - kEdge_m);
   std::array<Cell, kCorners> corners;
   for (std::size_t i = 0; i < kCorners; ++i) {
     const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / kCorners;
-    corners[i] = BestCellNear(map, radius_m * Vec2(std::cos(angle), std::sin(angle)),
-                              kCornerRoomShare * radius_m);
+    corners[i] =
+        BestCellNear(map, radius_m * Vec2(std::cos(angle), std::sin(angle)), corner_room_m);
   }
   Route route;
   for (std::size_t i = 0; i < kCorners; ++i) {

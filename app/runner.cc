@@ -317,11 +317,10 @@ class Episode {
   /// come away from its last place, the next 0.25 m are left out, and twice as much each time that
   /// this repeats.
   void PutOnFeet() {
-    constexpr double kSamePlace_m = 1.0, kFurther_m = 0.25, kFurthest_m = 2.0, kEdge_m = 3.0;
+    constexpr double kSamePlace_m = 1.0, kFurther_m = 0.25, kFurthest_m = 2.0;
     CloseChord();
     const RobotState& state = world_.truth().state;
-    const double inside_m = std::max(0.0, ground_.half_size_m() - kEdge_m);
-    const Vec2 here_W = state.p_WB.head<2>().cwiseMax(-inside_m).cwiseMin(inside_m);
+    const Vec2 here_W = state.p_WB.head<2>();
     const bool same = last_place_W_ && (*last_place_W_ - here_W).norm() < kSamePlace_m;
     further_m_ = same ? std::clamp(2.0 * further_m_, kFurther_m, kFurthest_m) : 0.0;
     const Place place = SetDown({here_W, core::RpyFromRotation(state.R_WB).z()}, further_m_, true);
@@ -332,8 +331,11 @@ class Episode {
   /// Puts the robot down at rest near `wanted`, on its feet or folded, where it stands well, and
   /// starts a fresh controller. @returns where.
   Place SetDown(const Place& wanted, double ahead_m, bool standing) {
-    const auto [place, margin] =
-        ChoosePlace(robot_, ground_, operator_.PlacesAhead(wanted, ahead_m));
+    constexpr double kEdge_m = 1.0;
+    const double inside_m = std::max(0.0, ground_.half_size_m() - kEdge_m);
+    std::vector<Place> places = operator_.PlacesAhead(wanted, ahead_m);
+    for (Place& p : places) p.p_WB = p.p_WB.cwiseMax(-inside_m).cwiseMin(inside_m);
+    const auto [place, margin] = ChoosePlace(robot_, ground_, places);
     if (margin <= 0.0)
       Announce("poor_ground", fmt::format("the robot hardly stands at x {:.3f} m, y {:.3f} m, the "
                                           "best place that the operator found",

@@ -417,11 +417,11 @@ RobotDescription MakeRobot(const RobotConfig& config, const std::string& urdf_te
   robot.urdf_text = urdf_text;
   robot.meshes = meshes;
   TreeWalker(config, *model, robot).Walk();
-  for (const PayloadParams& body : config.equipment) Mount(body, robot);
   for (int i = 0; i < kNumBodies; ++i) {
     if (robot.body(i).mass_kg <= 0.0) Fail(config, robot.body(i).name, "needs a positive mass");
   }
   DrawBareBodies(robot);
+  for (const PayloadParams& body : config.equipment) Mount(body, robot);
   const std::string problem = NormaliseJoints(robot);
   if (!problem.empty()) Fail(config, "legs", problem);
   DeriveDefaults(robot);

@@ -106,6 +106,14 @@ TEST(Metrics, OnlySteadyWindowsAreKept) {
   EXPECT_NEAR(r.windows[0].v_mps, 0.5, 1e-3);
 }
 
+TEST(Metrics, WindowBeforeAFallThatEndsTheEpisodeIsDropped) {
+  MetricsAccumulator m(9.81);
+  Walk walk(0.5);
+  walk.Run(m, 8.5);
+  m.AddFall({8.5, "tilt"});
+  EXPECT_TRUE(m.Finish().windows.empty());
+}
+
 TEST(Metrics, SpeedRippleWithinAStrideIsNoError) {
   MetricsAccumulator m(9.81);
   Walk walk(0.5);

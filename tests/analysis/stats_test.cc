@@ -108,7 +108,9 @@ TEST(CostCurve, BandResamplesEpisodes) {
     for (int k = 0; k < 10; ++k)
       points.push_back({0.5, 1.0 + (episode % 2 == 0 ? 0.2 : -0.2), episode});
   }
+  EXPECT_TRUE(FitCostCurve(std::span(points).first(40), 1, 7).low.empty()) << "of four episodes";
   const CurveFit fit = FitCostCurve(points, 1, 7);
+  ASSERT_FALSE(fit.low.empty());
   const double half = 0.5 * (fit.high.front() - fit.low.front());
   const double of_six = 1.96 * 0.2 / std::sqrt(6.0);
   EXPECT_GT(half, 0.7 * of_six);

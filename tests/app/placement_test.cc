@@ -70,5 +70,31 @@ TEST(Placement, ChoosesTheFirstGoodPlaceAndTheBestWhereThereIsNone) {
   EXPECT_EQ(best.margin, std::max(margin(uphill), margin(across)));
 }
 
+// On a tile hardly wider than its loop, a robot that fell is put down on the loop beside its fall.
+TEST(Placement, OnSmallTilesTheRobotIsPutBesideItsFall) {
+  for (const double size_m : {6.0, 12.0}) {
+    Scenario scenario = test::LoadScenario("flat", {"start=standing", "duration_s=12"});
+    scenario.operation = RouteParams{};
+    scenario.pushes = {{3.0, 0.1, 70.0, 1.5708}};
+    std::vector<Vec2> falls, places;
+    EpisodeSinks sinks;
+    std::optional<Vec2> last_W;
+    std::uint32_t segment = 0;
+    sinks.on_row = [&](const core::LogRow& row, const core::SolveTimes&) {
+      const Vec2 p_WB(row.p_WB_m[0], row.p_WB_m[1]);
+      if (last_W && row.segment != segment) {
+        falls.push_back(*last_W);
+        places.push_back(p_WB);
+      }
+      last_W = p_WB;
+      segment = row.segment;
+    };
+    (void)RunEpisode(scenario, test::Go2(), test::FlatGround(0.8, size_m), sinks);
+    ASSERT_FALSE(falls.empty()) << size_m;
+    const double loop_m = 0.5 * size_m - 2.0, off_loop_m = std::abs(falls.front().norm() - loop_m);
+    EXPECT_LT((places.front() - falls.front()).norm(), off_loop_m + 0.7) << size_m;
+  }
+}
+
 }  // namespace
 }  // namespace scoria::app
