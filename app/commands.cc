@@ -13,25 +13,25 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "analysis/import.h"
-#include "analysis/report.h"
+#include "analysis/report/report.h"
 #include "analysis/video/video.h"
-#include "app/bench.h"
-#include "app/campaign.h"
-#include "app/config_docs.h"
-#include "app/config_kinds.h"
-#include "app/episode_files.h"
-#include "app/inspection.h"
-#include "app/log_origin.h"
-#include "app/progress.h"
-#include "app/qp_check.h"
-#include "app/replay.h"
-#include "app/report_picture.h"
-#include "app/run_folder.h"
-#include "app/scenario.h"
-#include "app/verify.h"
+#include "app/campaign/campaign.h"
+#include "app/campaign/report_picture.h"
+#include "app/cli/progress.h"
+#include "app/inspect/bench.h"
+#include "app/inspect/inspection.h"
+#include "app/inspect/qp_check.h"
+#include "app/rerun/replay.h"
+#include "app/rerun/verify.h"
+#include "app/run/episode_files.h"
+#include "app/run/log_origin.h"
+#include "app/run/run_folder.h"
+#include "app/scenario/config_docs.h"
+#include "app/scenario/config_kinds.h"
+#include "app/scenario/scenario.h"
 #include "core/files.h"
 #include "core/robot/mesh_records.h"
+#include "logs/read_rows.h"
 
 namespace scoria::app {
 namespace {
@@ -250,9 +250,9 @@ void AddRender(CLI::App& app) {
     core::RobotDescription robot = RobotOf(origin);
     for (const std::string& remark : core::DrawLostMeshesAsBoxes(robot)) Note(remark);
     const terrains::Heightfield ground = GroundOf(origin);
-    analysis::LogContent content = analysis::ReadLog(o->log);
+    logs::LogContent content = logs::ReadLog(o->log);
     if (!content.problem.empty()) Note(content.problem);
-    std::erase_if(content.rows, [&](const core::LogRow& r) {
+    std::erase_if(content.rows, [&](const logs::LogRow& r) {
       const bool finite = std::isfinite(r.p_WB_m[0] + r.p_WB_m[1] + r.p_WB_m[2]);
       return !finite || r.time_s < o->from_s || r.time_s > o->to_s;
     });

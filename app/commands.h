@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/exit_codes.h"
+#include "app/cli/exit_codes.h"
 
 namespace scoria::app {
 

@@ -8,8 +8,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/cli/exit_codes.h"
 #include "app/commands.h"
-#include "app/exit_codes.h"
 #include "app/version.h"
 #include "core/files.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "analysis/ground_colour.h"
+#include "analysis/terrain/ground_colour.h"
 
 namespace scoria::analysis {
 namespace {

@@ -13,7 +13,7 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
-#include "analysis/estimation_metrics.h"
+#include "analysis/metrics/estimation_metrics.h"
 #include "analysis/video/scene.h"
 #include "core/files.h"
 #include "core/math/so3.h"
@@ -31,7 +31,7 @@ Vec3 ToVec3(const double* v) { return {v[0], v[1], v[2]}; }
 /// Follows the robot from behind and to the side, turning slowly.
 class Camera {
  public:
-  void Update(const core::LogRow& row, double dt_s, Frame& frame) {
+  void Update(const logs::LogRow& row, double dt_s, Frame& frame) {
     const Vec3 p = ToVec3(row.p_WB_m.data());
     const double yaw = row.rpy_rad[2];
     constexpr double kSmooth_s = 0.8, kJump_m = 1.0;
@@ -52,7 +52,7 @@ class Camera {
   bool started_ = false;
 };
 
-Frame MakeFrame(const core::LogRow& row, std::span<const core::LogRow> before) {
+Frame MakeFrame(const logs::LogRow& row, std::span<const logs::LogRow> before) {
   Frame frame;
   frame.p_WB = ToVec3(row.p_WB_m.data());
   frame.R_WB = core::RotationFromRpy(ToVec3(row.rpy_rad.data()));
@@ -91,7 +91,7 @@ void Text(cv::Mat& image, const std::string& text, int x, int y, double scale = 
 }
 
 /// Which feet bore weight over the last two seconds, FL FR HL HR from the top, now at the right.
-void DrawGaitDiagram(cv::Mat& image, std::span<const core::LogRow> rows, std::size_t now) {
+void DrawGaitDiagram(cv::Mat& image, std::span<const logs::LogRow> rows, std::size_t now) {
   constexpr double kSpan_s = 2.0;
   constexpr int kWidth = 260, kRow = 16, kMargin = 16, kNames = 40;
   const bool fits =
@@ -113,9 +113,9 @@ void DrawGaitDiagram(cv::Mat& image, std::span<const core::LogRow> rows, std::si
   }
 }
 
-void DrawOverlay(cv::Mat& image, std::span<const core::LogRow> rows, std::size_t now,
+void DrawOverlay(cv::Mat& image, std::span<const logs::LogRow> rows, std::size_t now,
                  const std::string& title) {
-  const core::LogRow& r = rows[now];
+  const logs::LogRow& r = rows[now];
   const double v = std::hypot(r.v_WB_mps[0], r.v_WB_mps[1]),
                command = std::hypot(r.cmd_v_x_mps, r.cmd_v_y_mps);
   Text(image, title, 16, 28, 0.65);
@@ -127,7 +127,7 @@ void DrawOverlay(cv::Mat& image, std::span<const core::LogRow> rows, std::size_t
 }
 
 /// The scene with its overlay, as OpenCV writes it.
-cv::Mat DrawImage(Scene& scene, const Frame& frame, std::span<const core::LogRow> rows,
+cv::Mat DrawImage(Scene& scene, const Frame& frame, std::span<const logs::LogRow> rows,
                   std::size_t now, const VideoOptions& options) {
   const cv::Mat bgra(cv::Size(options.width_px, options.height_px), CV_8UC4,
                      const_cast<std::uint8_t*>(scene.Draw(frame)));
@@ -196,7 +196,7 @@ void WriteFrame(const std::filesystem::path& file, const cv::Mat& image) {
 
 }  // namespace
 
-std::string RenderStill(std::span<const core::LogRow> rows, const core::RobotDescription& robot,
+std::string RenderStill(std::span<const logs::LogRow> rows, const core::RobotDescription& robot,
                         const terrains::Heightfield& ground, const VideoOptions& options) {
   if (rows.empty()) throw std::runtime_error("picture: the log has no rows in this span");
   Scene scene(robot, ground, options.width_px, options.height_px);
@@ -219,7 +219,7 @@ void CheckVideoFile(const std::filesystem::path& file) {
         fmt::format("{}: there is no folder {}", file.string(), folder.string()));
 }
 
-void RenderVideo(std::span<const core::LogRow> rows, const core::RobotDescription& robot,
+void RenderVideo(std::span<const logs::LogRow> rows, const core::RobotDescription& robot,
                  const terrains::Heightfield& ground, const VideoOptions& options) {
   CheckVideoFile(options.file);
   if (rows.empty()) throw std::runtime_error("video: the log has no rows in this span");

@@ -6,8 +6,8 @@
 #include <span>
 #include <string>
 
-#include "core/log/row.h"
 #include "core/robot/description.h"
+#include "logs/row.h"
 #include "terrains/heightfield.h"
 
 namespace scoria::analysis {
@@ -31,11 +31,11 @@ void CheckVideoFile(const std::filesystem::path& file);
 /// overlay with time, speed and gait diagram. The file is there whole, as read back, or not at all.
 /// Errors: std::runtime_error if no encoder or no OpenGL context is at hand; as CheckVideoFile;
 /// core::FileError if the disk refuses the video.
-void RenderVideo(std::span<const core::LogRow> rows, const core::RobotDescription& robot,
+void RenderVideo(std::span<const logs::LogRow> rows, const core::RobotDescription& robot,
                  const terrains::Heightfield& ground, const VideoOptions& options);
 
 /// One frame of that video, at the last row, as a JPEG. Errors: as RenderVideo.
-[[nodiscard]] std::string RenderStill(std::span<const core::LogRow> rows,
+[[nodiscard]] std::string RenderStill(std::span<const logs::LogRow> rows,
                                       const core::RobotDescription& robot,
                                       const terrains::Heightfield& ground,
                                       const VideoOptions& options);

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "app/scenario.h"
+#include "app/scenario/scenario.h"
 #include "core/rng.h"
 #include "core/robot/description.h"
 #include "core/robot/state.h"

@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "analysis/metrics/contact_metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace scoria::analysis {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kReach_s = 0.015;  // of a true edge: within it nobody is judged
+constexpr double kRun_s = 0.010;    // shorter true contacts are scuffs, shorter gaps bounces
+constexpr double kSameInstant_s = 1e-9;
+
+double Share(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? kNan : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+/// The bin of a number in the middle of which lies 0; NaN goes to the first.
+std::size_t CentredBin(double bins_from_zero) {
+  constexpr double kMiddle = static_cast<double>(Evidence::kBins / 2);
+  const double bin = std::floor(bins_from_zero) + kMiddle;
+  if (!(bin > 0.0)) return 0;
+  return static_cast<std::size_t>(std::min(bin, static_cast<double>(Evidence::kBins - 1)));
+}
+
+}  // namespace
+
+void DelayHistogram::Add(double delay_s) noexcept {
+  constexpr double kMiddle = static_cast<double>(kBins / 2);
+  const double bin =
+      std::clamp(std::round(delay_s / kBin_s) + kMiddle, 0.0, static_cast<double>(kBins - 1));
+  ++bins.counts[static_cast<std::size_t>(bin)];
+}
+
+double DelayHistogram::Quantile(double share) const noexcept {
+  const std::uint64_t total = count();
+  if (total == 0) return 0.0;
+  const auto rank = static_cast<std::uint64_t>(share * static_cast<double>(total - 1));
+  std::uint64_t below = 0;
+  std::size_t bin = 0;
+  while (below + bins.counts[bin] <= rank) below += bins.counts[bin++];
+  return (static_cast<double>(bin) - static_cast<double>(kBins / 2)) * kBin_s;
+}
+
+DelayHistogram& DelayHistogram::operator+=(const DelayHistogram& other) noexcept {
+  bins += other.bins;
+  return *this;
+}
+
+EdgeQuality& EdgeQuality::operator+=(const EdgeQuality& other) noexcept {
+  delays += other.delays;
+  missed += other.missed;
+  false_alarms += other.false_alarms;
+  return *this;
+}
+
+double ContactQuality::Accuracy() const noexcept {
+  return Share(stance_right + swing_right, stance_rows + swing_rows);
+}
+
+double ContactQuality::TruePositiveRate() const noexcept {
+  return Share(stance_right, stance_rows);
+}
+
+double ContactQuality::FalsePositiveRate() const noexcept {
+  return Share(swing_rows - swing_right, swing_rows);
+}
+
+ContactQuality& ContactQuality::operator+=(const ContactQuality& other) noexcept {
+  spoke = spoke || other.spoke;
+  differed = differed || other.differed;
+  stance_rows += other.stance_rows;
+  stance_right += other.stance_right;
+  swing_rows += other.swing_rows;
+  swing_right += other.swing_right;
+  touchdown += other.touchdown;
+  liftoff += other.liftoff;
+  return *this;
+}
+
+std::size_t Evidence::BinOfProbability(double probability) noexcept {
+  constexpr double kBinsPerLogOdds = 5.0;
+  return CentredBin(kBinsPerLogOdds * std::log(probability / (1.0 - probability)));
+}
+
+std::size_t Evidence::BinOfCounts(double counts) noexcept {
+  constexpr double kBinsPerOctave = 8.0;
+  return CentredBin(kBinsPerOctave * std::copysign(std::log2(1.0 + std::abs(counts)), counts));
+}
+
+std::vector<RocPoint> Evidence::Curve() const {
+  const std::uint64_t in_stance = stance.Total(), in_swing = swing.Total();
+  if (in_stance == 0 || in_swing == 0) return {};
+  std::vector<RocPoint> curve = {{}};
+  std::uint64_t above_stance = 0, above_swing = 0;
+  for (std::size_t bin = kBins; bin-- > 0;) {
+    if (stance.counts[bin] + swing.counts[bin] == 0) continue;
+    above_stance += stance.counts[bin];
+    above_swing += swing.counts[bin];
+    curve.push_back({Share(above_swing, in_swing), Share(above_stance, in_stance)});
+  }
+  if (curve.size() < 3) return {};
+  return curve;
+}
+
+double Evidence::Area() const {
+  const std::vector<RocPoint> curve = Curve();
+  if (curve.empty()) return kNan;
+  double area = 0.0;
+  for (std::size_t i = 1; i < curve.size(); ++i) {
+    area += 0.5 * (curve[i].true_positive_rate + curve[i - 1].true_positive_rate) *
+            (curve[i].false_positive_rate - curve[i - 1].false_positive_rate);
+  }
+  return area;
+}
+
+Evidence& Evidence::operator+=(const Evidence& other) noexcept {
+  stance += other.stance;
+  swing += other.swing;
+  return *this;
+}
+
+bool ContactMetrics::HasDetection() const noexcept {
+  return of(ContactWord::kSensor).spoke || of(ContactWord::kObserver).spoke ||
+         (of(ContactWord::kCounted).spoke && of(ContactWord::kCounted).differed);
+}
+
+ContactMetrics& ContactMetrics::operator+=(const ContactMetrics& other) noexcept {
+  for (std::size_t i = 0; i < words.size(); ++i) words[i] += other.words[i];
+  sensor += other.sensor;
+  observer += other.observer;
+  leg_rows += other.leg_rows;
+  for (std::size_t i = 0; i < counted_from.size(); ++i) counted_from[i] += other.counted_from[i];
+  distrusted_rows += other.distrusted_rows;
+  distrusted_times += other.distrusted_times;
+  return *this;
+}
+
+void EdgeMatcher::Update(const Instant& now, EdgeQuality& quality) noexcept {
+  const bool rises = started_ && now.word && !word_;
+  const bool falls = started_ && !now.word && word_;
+  const bool touches = started_ && now.on && !on_;
+  const bool lifts = started_ && !now.on && on_;
+  if (lifts) {
+    if (waiting_) ++quality.missed;
+    waiting_ = rose_ = false;
+    swing_seen_ = true;
+  }
+  if (rises) {
+    rose_ = true;
+    rose_near_ = now.near_on;
+    rise_s_ = now.time_s;
+    if (waiting_) quality.delays.Add(now.time_s - touchdown_s_);
+    waiting_ = false;
+  }
+  if (touches) {
+    touchdown_s_ = now.time_s;
+    waiting_ = !now.word;
+    if (now.word && rose_) {
+      quality.delays.Add(rise_s_ - now.time_s);
+    } else if (now.word && swing_seen_) {
+      ++quality.missed;  // it never noticed the swing
+    }
+  }
+  if (falls && !now.on && rose_) {
+    if (!rose_near_) ++quality.false_alarms;
+    rose_ = false;
+  }
+  started_ = true;
+  on_ = now.on;
+  word_ = now.word;
+}
+
+void ContactAccumulator::Break() noexcept {
+  window_.clear();
+  first_ = judged_ = 0;
+  has_judged_ = false;
+  for (LegMatchers& leg : matchers_) {
+    for (EdgeMatcher& m : leg.touchdown) m.Reset();
+    for (EdgeMatcher& m : leg.liftoff) m.Reset();
+  }
+  healthy_.fill(true);
+}
+
+void ContactAccumulator::CountSources(const logs::LogRow& row) noexcept {
+  for (std::size_t leg = 0; leg < 4; ++leg) {
+    ++metrics_.leg_rows;
+    ++metrics_.counted_from[std::min<std::size_t>(row.contact_source[leg], 3)];
+    const bool healthy = row.sensor_healthy[leg];
+    if (!healthy) ++metrics_.distrusted_rows;
+    if (!healthy && healthy_[leg]) ++metrics_.distrusted_times;
+    healthy_[leg] = healthy;
+  }
+}
+
+void ContactAccumulator::AddRow(const logs::LogRow& row) {
+  CountSources(row);
+  window_.push_back({row.time_s,
+                     row.true_contact,
+                     {row.contact, row.contact_sensor, row.contact_observer, row.planned_stance},
+                     row.sensor_counts,
+                     row.observer_probability});
+  while (window_[judged_].time_s + kReach_s - kSameInstant_s <= row.time_s) JudgeNext();
+}
+
+void ContactAccumulator::JudgeNext() noexcept {
+  const double from_s = window_[judged_].time_s - kReach_s + kSameInstant_s;
+  while (first_ < judged_ && window_[first_ + 1].time_s <= from_s) ++first_;
+  if (window_[first_].time_s <= from_s) {  // else too near to the start of the stretch
+    if (!has_judged_) debounced_ = window_[judged_].truth;
+    has_judged_ = true;
+    for (std::size_t leg = 0; leg < 4; ++leg) Judge(leg);
+  }
+  ++judged_;
+  Compact();
+}
+
+/// Forgets rows that are done with, many at a time.
+void ContactAccumulator::Compact() noexcept {
+  constexpr std::size_t kMany = 256;
+  if (first_ < kMany) return;
+  window_.erase(window_.begin(), window_.begin() + static_cast<std::ptrdiff_t>(first_));
+  judged_ -= first_;
+  first_ = 0;
+}
+
+/// Follows the truth where its new state lasts.
+void ContactAccumulator::UpdateDebounced(std::size_t leg) noexcept {
+  const bool now = window_[judged_].truth[leg];
+  const double until_s = window_[judged_].time_s + kRun_s - kSameInstant_s;
+  for (std::size_t i = judged_; i < window_.size() && window_[i].time_s < until_s; ++i) {
+    if (window_[i].truth[leg] != now) return;
+  }
+  debounced_[leg] = now;
+}
+
+void ContactAccumulator::Judge(std::size_t leg) noexcept {
+  UpdateDebounced(leg);
+  bool any_contact = false, any_swing = false;
+  for (std::size_t i = first_; i < window_.size(); ++i)
+    (window_[i].truth[leg] ? any_contact : any_swing) = true;
+  if (any_contact != any_swing) JudgeSteady(leg);
+  const Sample& now = window_[judged_];
+  for (std::size_t k = 0; k < kNumContactWords; ++k) {
+    ContactQuality& q = metrics_.words[k];
+    const bool word = now.words[k][leg], on = debounced_[leg];
+    q.spoke = q.spoke || word;
+    q.differed = q.differed || word != now.truth[leg];
+    matchers_[leg].touchdown[k].Update({now.time_s, on, any_contact, word}, q.touchdown);
+    matchers_[leg].liftoff[k].Update({now.time_s, !on, any_swing, !word}, q.liftoff);
+  }
+}
+
+/// A row away from the true edges.
+void ContactAccumulator::JudgeSteady(std::size_t leg) noexcept {
+  const Sample& now = window_[judged_];
+  const bool stance = now.truth[leg];
+  for (std::size_t k = 0; k < kNumContactWords; ++k) {
+    ContactQuality& q = metrics_.words[k];
+    ++(stance ? q.stance_rows : q.swing_rows);
+    if (now.words[k][leg] == stance) ++(stance ? q.stance_right : q.swing_right);
+  }
+  const auto add = [stance](Evidence& e, std::size_t bin) {
+    ++(stance ? e.stance : e.swing).counts[bin];
+  };
+  add(metrics_.sensor, Evidence::BinOfCounts(now.sensor_counts[leg]));
+  add(metrics_.observer, Evidence::BinOfProbability(now.observer_probability[leg]));
+}
+
+/// One line of "bin:count" words without the empty bins, so that a result stays readable.
+template <std::size_t N>
+void to_json(nlohmann::json& j, const BinCounts<N>& b) {
+  std::string words;
+  for (std::size_t i = 0; i < N; ++i) {
+    if (b.counts[i] > 0) words += fmt::format("{}{}:{}", words.empty() ? "" : " ", i, b.counts[i]);
+  }
+  j = words;
+}
+
+template <std::size_t N>
+void from_json(const nlohmann::json& j, BinCounts<N>& b) {
+  b = {};
+  std::istringstream words(j.get<std::string>());
+  for (std::string word; words >> word;) {
+    std::istringstream pair(word);
+    std::size_t bin = 0;
+    char colon = ' ';
+    std::uint64_t count = 0;
+    if (!(pair >> bin >> colon >> count) || colon != ':' || bin >= N)
+      throw std::runtime_error(
+          fmt::format("bins: \"{}\": expected bin:count with bin < {}", word, N));
+    b.counts[bin] = count;
+  }
+}
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DelayHistogram, bins)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(EdgeQuality, delays, missed, false_alarms)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ContactQuality, spoke, differed, stance_rows, stance_right,
+                                   swing_rows, swing_right, touchdown, liftoff)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Evidence, stance, swing)
+
+void to_json(nlohmann::json& j, const ContactMetrics& m) {
+  j = {{"sensor_evidence", m.sensor},
+       {"observer_evidence", m.observer},
+       {"leg_rows", m.leg_rows},
+       {"counted_from", m.counted_from},
+       {"distrusted_rows", m.distrusted_rows},
+       {"distrusted_times", m.distrusted_times}};
+  for (const auto& [word, name] : EnumNames(ContactWord{})) j["words"][name] = m.of(word);
+}
+
+void from_json(const nlohmann::json& j, ContactMetrics& m) {
+  j.at("sensor_evidence").get_to(m.sensor);
+  j.at("observer_evidence").get_to(m.observer);
+  j.at("leg_rows").get_to(m.leg_rows);
+  j.at("counted_from").get_to(m.counted_from);
+  j.at("distrusted_rows").get_to(m.distrusted_rows);
+  j.at("distrusted_times").get_to(m.distrusted_times);
+  for (const auto& [word, name] : EnumNames(ContactWord{}))
+    j.at("words").at(std::string(name)).get_to(m.words[static_cast<std::size_t>(word)]);
+}
+
+}  // namespace scoria::analysis

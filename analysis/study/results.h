@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "analysis/metrics/metrics.h"
+#include "terrains/generator.h"
+
+namespace scoria::analysis {
+
+/// One episode as its folder tells it.
+struct EpisodeRecord {
+  std::string id, arm, end, message;
+  std::vector<std::string> point;  // value of each swept key
+  std::uint64_t seed = 0;
+  bool has_metrics = false;  // false for a crashed worker or a missing result
+  int falls = 0, stuck = 0;
+  double walked_m = 0.0, real_time_factor = 0.0;
+  std::map<std::string, double> us_per_step;      // wall clock by stage
+  std::map<std::string, std::uint64_t> counters;  // what did not go to plan, by name
+  terrains::TerrainStatistics terrain;
+  EpisodeMetrics metrics;
+  std::string ground;       // equal where episodes walked the same one
+  std::vector<Vec2> route;  // the operator's, m; empty without one
+  std::filesystem::path folder;
+};
+
+struct Axis {
+  std::string key, label;
+  std::vector<std::string> values;
+  std::string baseline;  // value that the others are compared with; empty: none
+  [[nodiscard]] bool IsNumeric() const;
+};
+
+/// A campaign's folder, or a single run's as a campaign of one.
+struct CampaignResults {
+  std::string name;
+  std::vector<std::string> arms;
+  std::vector<Axis> axes;
+  std::vector<EpisodeRecord> episodes;
+  bool single_run = false;
+};
+
+/// Errors: std::runtime_error that names the file and what is missing.
+[[nodiscard]] CampaignResults LoadResults(const std::filesystem::path& folder);
+
+/// All combinations of the axes' values, in order.
+[[nodiscard]] std::vector<std::vector<std::string>> AllPoints(const std::vector<Axis>& axes);
+
+}  // namespace scoria::analysis

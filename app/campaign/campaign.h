@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/scenario/scenario.h"
+#include "core/config/archive.h"
+
+namespace scoria::app {
+
+/// One thing to compare: a name and what it changes in the scenario.
+struct CampaignArm {
+  std::string name;
+  core::ConfigNode set;
+};
+
+/// One swept key of the scenario, or variants of several keys; the arms cross them.
+struct CampaignAxis {
+  std::string key, label;              // a list of variants has its label for a key
+  std::vector<core::ConfigNode> sets;  // what each value changes in the scenario
+  std::vector<std::string> names;      // of the values, as the file writes them
+  std::string baseline;                // name that the report compares the others with, or empty
+};
+
+/// arms x sweep x seeds over one scenario. Arms share seeds, so that they walk the same ground
+/// (paired).
+struct Campaign {
+  std::string name;
+  core::ConfigNode scenario;
+  std::vector<CampaignArm> arms;
+  std::vector<CampaignAxis> sweep;
+  std::uint64_t first_seed = 1;
+  int seeds = 3;
+};
+
+/// Errors: core::ConfigError; every episode's scenario is checked before the first one runs.
+[[nodiscard]] Campaign LoadCampaign(const std::filesystem::path& file,
+                                    const std::vector<std::string>& overrides);
+
+/// One episode of a campaign.
+struct CampaignJob {
+  std::string id, arm;             // id: its folder's name
+  std::vector<std::string> point;  // value per axis
+  std::uint64_t seed = 0;
+  Scenario scenario;
+};
+
+/// Every combination of arms, values and seeds.
+/// Errors: core::ConfigError if a scenario is wrong or two episodes have one name.
+[[nodiscard]] std::vector<CampaignJob> AllJobs(const Campaign& campaign);
+
+struct CampaignOptions {
+  std::filesystem::path folder;  // out/NAME by default
+  int workers = 2;
+  std::string program;  // the scoria executable, for the workers
+  const std::atomic<bool>* interrupted = nullptr;
+  /// Why episodes that an earlier campaign left in the folder are walked again, and how many.
+  std::function<void(const std::string& reason, int episodes)> on_again;
+};
+
+struct CampaignOutcome {
+  int episodes = 0, done_before = 0, crashed = 0;
+  int failed = 0;      // ended non_finite or hardly walked
+  int unfinished = 0;  // to be walked by the same command again
+  bool interrupted = false;
+  std::string disk_problem;  // why the campaign ended early, if the disk refused a file
+};
+
+/// Runs every episode in a worker process of its own: a crash is an outcome in the results, never
+/// the end of the batch. Episodes whose result stands in the folder, of the same version and
+/// scenario and of files with the same content, are kept, so a stopped campaign resumes. What was
+/// killed from outside, ran out of space or left an unreadable result is walked by the next one.
+/// Errors: core::FolderInUse; core::FileError if the disk refuses the campaign's own folder.
+CampaignOutcome RunCampaign(const Campaign& campaign, const CampaignOptions& options);
+
+}  // namespace scoria::app

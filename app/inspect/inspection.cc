@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/inspect/inspection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "analysis/report/json_text.h"
+#include "analysis/terrain/terrain_view.h"
+#include "app/run/robot_warnings.h"
+#include "app/scenario/config_kinds.h"
+#include "controller/stand_up.h"
+#include "core/files.h"
+#include "core/robot/inspect.h"
+#include "core/robot/normalise.h"
+#include "core/robot/whole_body.h"
+#include "terrains/generator.h"
+
+namespace scoria::app {
+namespace {
+
+void PrintRobot(const core::RobotDescription& robot) {
+  fmt::print("{}: {:.3f} kg, {} foot sensors\n", robot.config.name, robot.total_mass_kg(),
+             robot.config.has_foot_sensors ? "with" : "no");
+  fmt::print("{:24} {:>8} {:>24} {:>34}\n", "body", "mass kg", "COM x y z m",
+             "inertia about it xx yy zz kg m^2");
+  for (int i = 0; i < core::kNumBodies; ++i) {
+    const core::Body& b = robot.body(i);
+    fmt::print("{:24} {:8.3f} {:8.4f}{:8.4f}{:8.4f}   {:10.3g} {:10.3g} {:10.3g}\n", b.name,
+               b.mass_kg, b.p_LC.x(), b.p_LC.y(), b.p_LC.z(), b.I_C_L(0, 0), b.I_C_L(1, 1),
+               b.I_C_L(2, 2));
+  }
+  fmt::print("{:24} {:>18} {:>8} {:>8} {:>20}\n", "joint", "limits rad", "Nm", "rad/s",
+             "URDF sign and zero");
+  for (const Leg leg : kLegs) {
+    for (const core::JointDescription& j : robot.legs[leg].joints) {
+      fmt::print("{:24} {:8.3f} {:8.3f}  {:8.2f} {:8.2f} {:12.0f} {:7.3f}\n", j.name, j.lower_rad,
+                 j.upper_rad, j.effort_Nm, j.velocity_radps, j.urdf_sign, j.urdf_zero_rad);
+    }
+  }
+  const core::LegDescription& leg = robot.legs[Leg::kFL];
+  const core::RobotConfig& c = robot.config;
+  fmt::print("thigh {:.4f} m, shank {:.4f} m, foot radius {:.4f} m\n", core::ThighLength(leg),
+             core::ShankLength(leg), leg.foot_radius_m);
+  fmt::print(
+      "walks {:.3f} m high, reaches {:.3f} m from the hip, feet at x {:.3f} and {:.3f}, y "
+      "+-{:.3f} and {:.3f} m\n",
+      c.nominal_height_m, c.max_leg_length_m, c.stance_front_m.x(), c.stance_hind_m.x(),
+      c.stance_front_m.y(), c.stance_hind_m.y());
+  core::WholeBody wb;
+  RobotState standing;
+  standing.q = controller::StandingPose(robot, c.nominal_height_m);
+  core::WholeBodyModel(robot, 9.81).Calc(standing, wb);
+  fmt::print(
+      "standing: COM x {:.4f}, y {:.4f}, z {:.4f} m from the base link; inertia about it "
+      "{:.3f} {:.3f} {:.3f} kg m^2\n",
+      wb.p_WC.x(), wb.p_WC.y(), wb.p_WC.z(), wb.I_C_W(0, 0), wb.I_C_W(1, 1), wb.I_C_W(2, 2));
+}
+
+void AddInfo(CLI::App& app) {
+  auto file = std::make_shared<std::string>();
+  CLI::App* info =
+      app.add_subcommand("info", "print what a robot's files say, and what looks wrong");
+  info->add_option("robot", *file, "robot YAML")->required();
+  info->callback([file] {
+    const auto config = core::ReadConfig<core::RobotConfig>(LoadKind("robot", *file, {}));
+    const core::RobotDescription robot = core::ReadRobot(config);
+    PrintRobot(robot);
+    std::vector<std::string> warnings = core::FindSuspicions(robot);
+    constexpr double kEarth_mps2 = 9.81;
+    for (std::string& warning : WalkWarnings(robot, controller::MpcParams{}, kEarth_mps2))
+      warnings.push_back(std::move(warning));
+    for (const std::string& warning : warnings) fmt::print("warning: {}\n", warning);
+  });
+}
+
+/// The terrain of a file, or of a preset by its name: terrains/NAME.yaml here or beside the
+/// program's build folder.
+terrains::TerrainParams LoadTerrain(const std::string& name, const std::vector<std::string>& set) {
+  namespace fs = std::filesystem;
+  fs::path file = name;
+  std::vector<std::string> presets;
+  const fs::path source =
+      fs::read_symlink("/proc/self/exe").parent_path().parent_path().parent_path().parent_path();
+  for (const fs::path& folder : {fs::path("terrains"), source / "terrains"}) {
+    if (fs::exists(file)) break;
+    if (fs::exists(folder / (name + ".yaml"))) file = folder / (name + ".yaml");
+    if (!fs::is_directory(folder) || !presets.empty()) continue;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      if (entry.path().extension() == ".yaml") presets.push_back(entry.path().stem().string());
+    }
+  }
+  if (!fs::exists(file)) {
+    std::sort(presets.begin(), presets.end());
+    throw core::ConfigError({name, 0, 0}, "terrain",
+                            fmt::format("is neither a file nor a preset; choices: {}{}",
+                                        fmt::join(presets, ", "), core::DidYouMean(name, presets)));
+  }
+  return core::ReadConfig<terrains::TerrainParams>(LoadKind("terrain", file, set));
+}
+
+void PrintTerrain(const terrains::TerrainParams& params, const terrains::Terrain& terrain,
+                  const terrains::TerrainStatistics& s, std::size_t rocks) {
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  const terrains::Heightfield& ground = terrain.ground;
+  const double spacing_m = ground.resolution_m(), edge_m = ground.nodes() * spacing_m;
+  const terrains::RoughnessParams& asked = params.roughness;
+  fmt::print("{}: {:.1f} m of ground, {:.3f} m grid\n", params.name, edge_m, spacing_m);
+  const auto wanted = [&](double value) {
+    return asked.nu_1m_m > 0.0 ? fmt::format(" (asked {:.4f})", value) : "";
+  };
+  fmt::print("  RMS height difference  {:.4f} m at 0.1 m, {:.4f} m at 0.25 m, {:.4f} m at 1 m{}\n",
+             s.nu_10cm_m, s.nu_25cm_m, s.nu_1m_m, wanted(params.roughness_scale * asked.nu_1m_m));
+  fmt::print("  Hurst exponent         {:.4f}{}\n", s.hurst, wanted(asked.hurst));
+  fmt::print("  slope                  {:.1f} deg mean, {:.1f} deg 95 %\n",
+             s.slope_mean_rad * kDegrees, s.slope_95_rad * kDegrees);
+  if (params.rocks.area_fraction > 0.0) {
+    const double expected =
+        terrains::RockDensity(params.rocks, params.rocks.min_diameter_m) * edge_m * edge_m;
+    fmt::print("  rocks                  {} (expected {:.0f} +- {:.0f})\n", rocks, expected,
+               std::sqrt(expected));
+  }
+  fmt::print("  cut to max_slope_rad   {} of {} nodes\n", terrain.cut_nodes,
+             ground.heights_m().size());
+  for (const auto& [name, fraction] : s.materials)
+    fmt::print("  {:22} {:.1f} %\n", name, 100.0 * fraction);
+  for (const std::string& remark : terrains::HeightmapRemarks(terrain, params))
+    fmt::print("warning: {}\n", remark);
+}
+
+void AddTerrain(CLI::App& app) {
+  struct Options {
+    std::string name, out;
+    std::vector<std::string> set;
+    std::uint64_t seed = 1;
+    bool json = false, no_pictures = false;
+  };
+  auto o = std::make_shared<Options>();
+  CLI::App* terrain =
+      app.add_subcommand("terrain", "make a ground, measure it, and draw its relief and deviogram");
+  terrain->add_option("terrain", o->name, "name of a preset, or a terrain YAML")->required();
+  terrain->add_option("--seed", o->seed, "master seed (default 1)");
+  terrain->add_option("--set", o->set, "override a key, as roughness_scale=2");
+  terrain->add_option("--out", o->out, "folder for the pictures (default out/terrain/NAME)");
+  terrain->add_flag("--json", o->json, "print the numbers as JSON instead of a summary");
+  terrain->add_flag("--no-pictures", o->no_pictures, "print only, write no files");
+  terrain->callback([o] {
+    const terrains::TerrainParams params = LoadTerrain(o->name, o->set);
+    const terrains::Terrain made = terrains::MakeTerrain(params, o->seed, 0);
+    const terrains::Heightfield& ground = made.ground;
+    const terrains::TerrainStatistics statistics = terrains::MeasureTerrain(ground, params);
+    const std::filesystem::path folder =
+        o->out.empty() ? std::filesystem::path("out/terrain") / core::FileNameOf(params.name)
+                       : std::filesystem::path(o->out);
+    if (!o->no_pictures) analysis::WriteTerrainView(ground, params, statistics, folder);
+    if (o->json) {
+      nlohmann::json json = analysis::TerrainJson(ground, params, statistics);
+      json["cut_nodes"] = made.cut_nodes;
+      fmt::print("{}", analysis::JsonText(json));
+      return;
+    }
+    const double edge_m = ground.nodes() * ground.resolution_m();
+    const std::size_t rocks =
+        terrains::DrawRocks(params.rocks, edge_m, core::Rng(o->seed, 0, core::Stream::kRocks))
+            .size();
+    PrintTerrain(params, made, statistics, rocks);
+    if (!o->no_pictures) {
+      fmt::print("  files                  {}/relief.png, deviogram.png, terrain.json\n",
+                 folder.string());
+    }
+  });
+}
+
+}  // namespace
+
+void AddInspection(CLI::App& app) {
+  AddInfo(app);
+  AddTerrain(app);
+}
+
+}  // namespace scoria::app

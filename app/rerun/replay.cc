@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/rerun/replay.h"
+
+#include <optional>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "app/episode/record.h"
+#include "app/run/log_origin.h"
+#include "core/math/so3.h"
+#include "logs/format/cdr.h"
+
+namespace scoria::app {
+namespace {
+
+namespace msg = logs::msg;
+
+Vec3 ToVec3(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+
+template <class T>
+LegArray<T> ToLegs(const std::array<T, 4>& v) {
+  return {v[0], v[1], v[2], v[3]};
+}
+
+SensorFrame ToFrame(const msg::ControllerInput& m) {
+  SensorFrame z;
+  z.step = m.step;
+  z.imu_time_s = m.imu_time_s;
+  z.q = Unflatten(m.q_rad);
+  z.qd = Unflatten(m.qd_radps);
+  z.tau_Nm = Unflatten(m.tau_nm);
+  z.a_WS_S = ToVec3(m.specific_force_mps2);
+  z.w_WS_S = ToVec3(m.rate_radps);
+  z.foot_force_raw = ToLegs(m.foot_force_raw);
+  return z;
+}
+
+Command ToCommand(const msg::ControllerInput& m) {
+  Command command;
+  command.v_x_mps = m.v_x_mps;
+  command.v_y_mps = m.v_y_mps;
+  command.w_z_radps = m.w_z_radps;
+  command.height_m = m.height_m;
+  command.roll_rad = m.roll_rad;
+  command.pitch_rad = m.pitch_rad;
+  command.pattern = static_cast<GaitPattern>(m.pattern);
+  return command;
+}
+
+controller::SolverFaults ToFaults(const msg::ControllerInput& m) {
+  return {static_cast<controller::SolverFault>(m.mpc_fault),
+          static_cast<controller::SolverFault>(m.wbc_fault)};
+}
+
+RobotState TrueState(const logs::LogRow& row) {
+  RobotState s;
+  s.p_WB = ToVec3(row.p_WB_m);
+  s.R_WB = core::RotationFromRpy(ToVec3(row.rpy_rad));
+  s.v_WB = ToVec3(row.v_WB_mps);
+  s.w_WB = ToVec3(row.w_WB_radps);
+  s.q = Unflatten(row.q_rad);
+  s.qd = Unflatten(row.qd_radps);
+  return s;
+}
+
+/// One pass over a log.
+class Replay {
+ public:
+  Replay(const Scenario& scenario, const core::RobotDescription& robot)
+      : scenario_(scenario), robot_(robot), changes_(ChangedControllers(scenario)) {}
+
+  void Take(const logs::McapReader::Message& m) {
+    if (m.channel.topic == "/scoria/controller_start") {
+      Start(logs::DecodeCdr<msg::ControllerStart>(m.data));
+    } else if (m.channel.topic == "/scoria/row") {
+      row_ = logs::DecodeCdr<logs::LogRow>(m.data);
+    } else if (m.channel.topic == "/scoria/controller_input") {
+      Step(logs::DecodeCdr<msg::ControllerInput>(m.data));
+    } else if (m.channel.topic == "/scoria/event") {
+      const auto event = logs::DecodeCdr<msg::Event>(m.data);
+      const bool change = event.kind == "controller_change" && next_change_ < changes_.size();
+      if (!change) return;
+      const controller::ControllerParams& params = changes_[next_change_++];
+      if (controller_) controller_->Reconfigure(params);
+    }
+  }
+
+  /// @param problem  what is wrong with the log, if anything.
+  ReplayResult Finish(const std::string& problem) {
+    if (result_.steps == 0) {
+      throw std::runtime_error(
+          !problem.empty() ? problem + "; there are no controller inputs before that"
+          : scenario_.log.keep == KeepLog::kFull
+              ? "the log ends before the first controller input"
+              : "the log holds no controller inputs from a start on; record it with log.keep=full");
+    }
+    result_.file_problem = problem;
+    result_.logged = logged_.Finish();
+    result_.replayed = replayed_.Finish();
+    return result_;
+  }
+
+ private:
+  void Start(const msg::ControllerStart& m) {
+    using Pose = controller::Start::Pose;
+    const auto model = controller_ ? std::optional(controller_->model()) : std::nullopt;
+    const controller::Start start{m.standing ? Pose::kStanding : Pose::kLying,
+                                  {Vec2(m.x_m, m.y_m), m.ground_z_m, m.yaw_rad},
+                                  m.step,
+                                  model};
+    controller_.emplace(next_change_ == 0 ? scenario_.controller : changes_[next_change_ - 1],
+                        robot_, scenario_.gravity_mps2, scenario_.physics.step_s, start);
+    next_step_ = m.step;
+  }
+
+  void Step(const msg::ControllerInput& m) {
+    if (!controller_ || m.step != next_step_) return;
+    ++next_step_;
+    ++result_.steps;
+    const controller::ControlOutput& out = controller_->Step(ToFrame(m), ToCommand(m), ToFaults(m));
+    if (row_ && row_->step == m.step) Compare(out);
+  }
+
+  void Compare(const controller::ControlOutput& out) {
+    logs::LogRow again = *row_;
+    FillEstimate(out, TrueState(*row_), again);
+    logged_.AddRow(*row_);
+    replayed_.AddRow(again);
+    ++result_.rows;
+    const bool same = again.est_p_WB_m == row_->est_p_WB_m &&
+                      again.est_v_WB_mps == row_->est_v_WB_mps &&
+                      again.est_rpy_rad == row_->est_rpy_rad && again.nis == row_->nis &&
+                      again.learned_mass_kg == row_->learned_mass_kg &&
+                      again.contact_source == row_->contact_source &&
+                      again.contact == row_->contact && again.est_f_F_W_N == row_->est_f_F_W_N &&
+                      out.qualities == row_->stage_quality && out.fallen_back == row_->fallen_back;
+    if (!same && result_.identical) {
+      result_.identical = false;
+      result_.first_difference_s = row_->time_s;
+    }
+  }
+
+  const Scenario& scenario_;
+  const core::RobotDescription& robot_;
+  std::vector<controller::ControllerParams> changes_;
+  std::size_t next_change_ = 0;
+  std::optional<controller::Controller> controller_;
+  std::int64_t next_step_ = 0;
+  std::optional<logs::LogRow> row_;
+  analysis::EstimationAccumulator logged_, replayed_;
+  ReplayResult result_;
+};
+
+}  // namespace
+
+ReplayResult ReplayLog(const std::filesystem::path& log,
+                       const std::vector<std::string>& overrides) {
+  for (const std::string& assignment : overrides) {
+    if (!assignment.starts_with("controller."))
+      throw core::ConfigError(
+          {}, "", fmt::format("--set {}: a replay can only change controller.*", assignment));
+  }
+  const LogOrigin origin = ReadLogOrigin(log, overrides);
+  if (NeedsTruthEver(origin.scenario))
+    throw std::runtime_error(
+        fmt::format("{}: a controller that runs on the truth cannot be replayed; choose other "
+                    "stages with --set controller.estimator.type=inekf and "
+                    "controller.contact.source=hierarchy",
+                    log.string()));
+  const core::RobotDescription robot = RobotOf(origin);
+  const auto replay = std::make_unique<Replay>(origin.scenario, robot);
+  const std::string problem =
+      logs::McapReader(log).ForEachMessage([&](const logs::McapReader::Message& m) {
+        replay->Take(m);
+        return true;
+      });
+  return replay->Finish(problem);
+}
+
+}  // namespace scoria::app

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "logs/format/cdr.h"
+
+namespace scoria::logs {
+
+using McapMetadata = std::map<std::string, std::string>;
+
+/// A file that travels in a log.
+struct McapAttachment {
+  std::string name, media_type;
+  Bytes data;
+};
+
+/// Writes an MCAP file of the `ros2` profile: CDR messages under ros2msg schemas in zstd chunks
+/// with index. Every chunk is flushed when it is full, so a killed process loses at most the last
+/// one. Source: [MCAP] specification, version 0.
+class McapWriter {
+ public:
+  /// Errors, here and below: core::FileError if the file cannot be opened or written.
+  explicit McapWriter(const std::filesystem::path& path, std::size_t chunk_bytes = 1 << 20);
+  ~McapWriter();
+  McapWriter(const McapWriter&) = delete;
+  McapWriter& operator=(const McapWriter&) = delete;
+
+  /// @returns the channel's number, to write messages to. A schema is shared by channels of the
+  /// same type.
+  std::uint16_t AddChannel(const std::string& topic, const std::string& type_name,
+                           const std::string& schema_text);
+  void Write(std::uint16_t channel, std::int64_t time_ns, std::span<const std::byte> message);
+  void AddMetadata(const std::string& name, const McapMetadata& metadata);
+  void AddAttachment(const McapAttachment& attachment);
+
+  /// Writes the index and ends the file; called by the destructor, where errors are lost.
+  void Close();
+
+ private:
+  struct Channel {
+    std::uint16_t schema = 0;
+    std::string topic;
+    std::uint32_t sequence = 0;
+    bool announced = false;  // in some chunk
+    std::uint64_t count = 0;
+  };
+  struct Schema {
+    std::string name, text;
+    bool announced = false;
+  };
+  struct ChunkIndex {
+    std::uint64_t first_ns, last_ns, offset, length, index_length, compressed, uncompressed;
+    std::map<std::uint16_t, std::uint64_t> index_offsets;
+  };
+  struct MetadataIndex {
+    std::uint64_t offset, length;
+    std::string name;
+  };
+  struct AttachmentIndex {
+    std::uint64_t offset, length, data_size;
+    std::string name, media_type;
+  };
+
+  void Emit(const Bytes& bytes);
+  void FlushChunk();
+  void WriteSummary();
+
+  std::ofstream out_;
+  std::string path_;
+  std::size_t chunk_bytes_;
+  std::uint64_t offset_ = 0;
+  Bytes chunk_;
+  std::uint64_t chunk_first_ns_ = 0, chunk_last_ns_ = 0, first_ns_ = 0, last_ns_ = 0, total_ = 0;
+  std::map<std::uint16_t, std::vector<std::pair<std::uint64_t, std::uint64_t>>> chunk_messages_;
+  std::vector<Schema> schemas_;    // number = index + 1
+  std::vector<Channel> channels_;  // number = index
+  std::vector<ChunkIndex> chunk_indexes_;
+  std::vector<MetadataIndex> metadata_indexes_;
+  std::vector<AttachmentIndex> attachment_indexes_;
+  bool closed_ = false;
+};
+
+/// Reads an MCAP file from front to back, whatever wrote it: chunked (zstd, lz4 or plain) or not,
+/// with or without an index, also one that ends in the middle.
+class McapReader {
+ public:
+  struct ChannelInfo {
+    std::string topic, type_name, schema_text, message_encoding;
+  };
+  struct Message {
+    const ChannelInfo& channel;
+    std::int64_t time_ns;
+    std::span<const std::byte> data;
+  };
+  /// Return false to stop early.
+  using OnMessage = std::function<bool(const Message&)>;
+
+  /// Errors: std::runtime_error if the file cannot be read or is not MCAP.
+  explicit McapReader(std::filesystem::path path);
+
+  /// Reads everything. @returns what is wrong with the file, in words; empty if nothing.
+  std::string ForEachMessage(const OnMessage& on_message);
+
+  /// Metadata records by name, from the whole file; chunks are skipped unread.
+  /// Errors: std::runtime_error if a record is damaged.
+  [[nodiscard]] std::map<std::string, McapMetadata> ReadMetadata() const;
+
+  /// The first attachment of that name, if any.
+  /// Errors: std::runtime_error if it is damaged.
+  [[nodiscard]] std::optional<McapAttachment> ReadAttachment(const std::string& name) const;
+
+  /// False where the file ends before its data do.
+  [[nodiscard]] bool IsWhole() const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace scoria::logs

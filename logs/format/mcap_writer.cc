@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cerrno>
+#include <stdexcept>
+
+#include <zstd.h>
+
+#include "core/files.h"
+#include "logs/format/mcap.h"
+#include "logs/format/mcap_format.h"
+
+namespace scoria::logs {
+namespace {
+
+using namespace mcap_format;  // this file writes the format
+
+constexpr int kZstdLevel = 1;  // logs of noisy floats: higher levels cost time and gain nothing
+
+/// What rosbag2 wants to know of a channel: reliable, keep the last message.
+const McapMetadata kChannelMetadata = {
+    {"offered_qos_profiles", "- history: 1\n  depth: 1\n  reliability: 1\n  durability: 2\n"}};
+
+/// Appends little-endian values to a byte vector.
+class Put {
+ public:
+  explicit Put(Bytes& out) : out_(out) {}
+  template <class T>
+  Put& Int(T value) {
+    for (std::size_t i = 0; i < sizeof(T); ++i) {
+      out_.push_back(static_cast<std::byte>(static_cast<std::uint64_t>(value) >> (8 * i)));
+    }
+    return *this;
+  }
+  Put& Raw(std::span<const std::byte> bytes) {
+    out_.insert(out_.end(), bytes.begin(), bytes.end());
+    return *this;
+  }
+  Put& String(const std::string& text) {
+    Int(static_cast<std::uint32_t>(text.size()));
+    return Raw(std::as_bytes(std::span(text)));
+  }
+  Put& Map(const McapMetadata& map) {
+    Bytes body;
+    for (const auto& [key, value] : map) Put(body).String(key).String(value);
+    Int(static_cast<std::uint32_t>(body.size()));
+    return Raw(body);
+  }
+
+ private:
+  Bytes& out_;
+};
+
+void AppendRecord(Bytes& out, Op op, const Bytes& body) {
+  Put(out)
+      .Int(static_cast<std::uint8_t>(op))
+      .Int(static_cast<std::uint64_t>(body.size()))
+      .Raw(body);
+}
+
+}  // namespace
+
+McapWriter::McapWriter(const std::filesystem::path& path, std::size_t chunk_bytes)
+    : out_(path, std::ios::binary), path_(path.string()), chunk_bytes_(chunk_bytes) {
+  if (!out_) throw core::FileError(path_, "cannot write", errno);
+  Bytes bytes;
+  Put(bytes).Raw(std::as_bytes(std::span(kMagic)));
+  Bytes header;
+  Put(header).String("ros2").String("scoria");
+  AppendRecord(bytes, kHeader, header);
+  Emit(bytes);
+}
+
+McapWriter::~McapWriter() {
+  try {
+    Close();
+  } catch (const std::exception&) {
+    // Nothing can be told from a destructor; whoever wants to know calls Close().
+  }
+}
+
+void McapWriter::Emit(const Bytes& bytes) {
+  out_.write(reinterpret_cast<const char*>(bytes.data()),
+             static_cast<std::streamsize>(bytes.size()));
+  out_.flush();
+  if (!out_) throw core::FileError(path_, "cannot write", errno);
+  offset_ += bytes.size();
+}
+
+std::uint16_t McapWriter::AddChannel(const std::string& topic, const std::string& type_name,
+                                     const std::string& schema_text) {
+  auto schema = std::find_if(schemas_.begin(), schemas_.end(),
+                             [&](const Schema& s) { return s.name == type_name; });
+  if (schema == schemas_.end()) {
+    schemas_.push_back({type_name, schema_text, false});
+    schema = schemas_.end() - 1;
+  }
+  channels_.push_back(
+      {static_cast<std::uint16_t>(schema - schemas_.begin() + 1), topic, 0, false, 0});
+  return static_cast<std::uint16_t>(channels_.size() - 1);
+}
+
+void McapWriter::Write(std::uint16_t number, std::int64_t time_ns,
+                       std::span<const std::byte> message) {
+  Channel& channel = channels_.at(number);
+  const auto time = static_cast<std::uint64_t>(time_ns);
+  if (!channel.announced) {
+    Schema& schema = schemas_[channel.schema - 1u];
+    if (!schema.announced) {
+      Bytes body;
+      Put(body).Int(channel.schema).String(schema.name).String("ros2msg").String(schema.text);
+      AppendRecord(chunk_, kSchema, body);
+      schema.announced = true;
+    }
+    Bytes body;
+    Put(body)
+        .Int(number)
+        .Int(channel.schema)
+        .String(channel.topic)
+        .String("cdr")
+        .Map(kChannelMetadata);
+    AppendRecord(chunk_, kChannel, body);
+    channel.announced = true;
+  }
+  if (chunk_messages_.empty()) chunk_first_ns_ = chunk_last_ns_ = time;
+  if (total_ == 0) first_ns_ = last_ns_ = time;
+  chunk_first_ns_ = std::min(chunk_first_ns_, time);
+  chunk_last_ns_ = std::max(chunk_last_ns_, time);
+  first_ns_ = std::min(first_ns_, time);
+  last_ns_ = std::max(last_ns_, time);
+  chunk_messages_[number].emplace_back(time, chunk_.size());
+  const std::uint64_t length = 2 + 4 + 8 + 8 + message.size();
+  Put(chunk_)
+      .Int(static_cast<std::uint8_t>(kMessage))
+      .Int(length)
+      .Int(number)
+      .Int(channel.sequence++)
+      .Int(time)
+      .Int(time)
+      .Raw(message);
+  ++channel.count;
+  ++total_;
+  if (chunk_.size() >= chunk_bytes_) FlushChunk();
+}
+
+void McapWriter::FlushChunk() {
+  if (chunk_.empty()) return;
+  Bytes packed(ZSTD_compressBound(chunk_.size()));
+  const std::size_t n =
+      ZSTD_compress(packed.data(), packed.size(), chunk_.data(), chunk_.size(), kZstdLevel);
+  if (ZSTD_isError(n) != 0) throw std::runtime_error(fmt::format("{}: cannot compress", path_));
+  packed.resize(n);
+
+  Bytes body, bytes;
+  Put(body)
+      .Int(chunk_first_ns_)
+      .Int(chunk_last_ns_)
+      .Int(static_cast<std::uint64_t>(chunk_.size()))
+      .Int(Crc(chunk_))
+      .String("zstd")
+      .Int(static_cast<std::uint64_t>(packed.size()))
+      .Raw(packed);
+  AppendRecord(bytes, kChunk, body);
+  ChunkIndex index{chunk_first_ns_, chunk_last_ns_, offset_, bytes.size(), 0,
+                   packed.size(),   chunk_.size(),  {}};
+  for (const auto& [channel, messages] : chunk_messages_) {
+    index.index_offsets[channel] = offset_ + bytes.size();
+    Bytes entries, record;
+    for (const auto& [time, at] : messages) Put(entries).Int(time).Int(at);
+    Put(record).Int(channel).Int(static_cast<std::uint32_t>(entries.size())).Raw(entries);
+    AppendRecord(bytes, kMessageIndex, record);
+  }
+  index.index_length = bytes.size() - index.length;
+  chunk_indexes_.push_back(std::move(index));
+  chunk_.clear();
+  chunk_messages_.clear();
+  Emit(bytes);
+}
+
+void McapWriter::AddMetadata(const std::string& name, const McapMetadata& metadata) {
+  FlushChunk();
+  Bytes body, bytes;
+  Put(body).String(name).Map(metadata);
+  AppendRecord(bytes, kMetadata, body);
+  metadata_indexes_.push_back({offset_, bytes.size(), name});
+  Emit(bytes);
+}
+
+void McapWriter::AddAttachment(const McapAttachment& attachment) {
+  FlushChunk();
+  Bytes body, bytes;
+  Put(body).Int(std::uint64_t{0}).Int(std::uint64_t{0});  // log and creation time
+  Put(body).String(attachment.name).String(attachment.media_type);
+  Put(body).Int(static_cast<std::uint64_t>(attachment.data.size())).Raw(attachment.data);
+  Put(body).Int(Crc(body));
+  AppendRecord(bytes, kAttachment, body);
+  attachment_indexes_.push_back(
+      {offset_, bytes.size(), attachment.data.size(), attachment.name, attachment.media_type});
+  Emit(bytes);
+}
+
+void McapWriter::WriteSummary() {
+  const std::uint64_t summary_start = offset_;
+  const auto is_announced = [](const auto& item) { return item.announced; };
+  Bytes summary, offsets;
+  const auto group = [&](Op op, const auto& write_records) {
+    const std::size_t before = summary.size();
+    write_records();
+    if (summary.size() == before) return;
+    Bytes body;
+    Put(body)
+        .Int(static_cast<std::uint8_t>(op))
+        .Int(summary_start + before)
+        .Int(static_cast<std::uint64_t>(summary.size() - before));
+    AppendRecord(offsets, kSummaryOffset, body);
+  };
+  group(kSchema, [&] {
+    for (std::size_t i = 0; i < schemas_.size(); ++i) {
+      if (!schemas_[i].announced) continue;
+      Bytes body;
+      Put(body)
+          .Int(static_cast<std::uint16_t>(i + 1))
+          .String(schemas_[i].name)
+          .String("ros2msg")
+          .String(schemas_[i].text);
+      AppendRecord(summary, kSchema, body);
+    }
+  });
+  group(kChannel, [&] {
+    for (std::size_t i = 0; i < channels_.size(); ++i) {
+      if (!channels_[i].announced) continue;
+      Bytes body;
+      Put(body)
+          .Int(static_cast<std::uint16_t>(i))
+          .Int(channels_[i].schema)
+          .String(channels_[i].topic)
+          .String("cdr")
+          .Map(kChannelMetadata);
+      AppendRecord(summary, kChannel, body);
+    }
+  });
+  group(kStatistics, [&] {
+    Bytes counts, body;
+    for (std::size_t i = 0; i < channels_.size(); ++i) {
+      if (!channels_[i].announced) continue;
+      Put(counts).Int(static_cast<std::uint16_t>(i)).Int(channels_[i].count);
+    }
+    Put(body)
+        .Int(total_)
+        .Int(static_cast<std::uint16_t>(
+            std::count_if(schemas_.begin(), schemas_.end(), is_announced)))
+        .Int(static_cast<std::uint32_t>(
+            std::count_if(channels_.begin(), channels_.end(), is_announced)))
+        .Int(static_cast<std::uint32_t>(attachment_indexes_.size()))
+        .Int(static_cast<std::uint32_t>(metadata_indexes_.size()))
+        .Int(static_cast<std::uint32_t>(chunk_indexes_.size()))
+        .Int(first_ns_)
+        .Int(last_ns_)
+        .Int(static_cast<std::uint32_t>(counts.size()))
+        .Raw(counts);
+    AppendRecord(summary, kStatistics, body);
+  });
+  group(kChunkIndex, [&] {
+    for (const ChunkIndex& c : chunk_indexes_) {
+      Bytes map, body;
+      for (const auto& [channel, offset] : c.index_offsets) Put(map).Int(channel).Int(offset);
+      Put(body).Int(c.first_ns).Int(c.last_ns).Int(c.offset).Int(c.length);
+      Put(body)
+          .Int(static_cast<std::uint32_t>(map.size()))
+          .Raw(map)
+          .Int(c.index_length)
+          .String("zstd");
+      Put(body).Int(c.compressed).Int(c.uncompressed);
+      AppendRecord(summary, kChunkIndex, body);
+    }
+  });
+  group(kAttachmentIndex, [&] {
+    for (const AttachmentIndex& a : attachment_indexes_) {
+      Bytes body;
+      Put(body).Int(a.offset).Int(a.length).Int(std::uint64_t{0}).Int(std::uint64_t{0});
+      Put(body).Int(a.data_size).String(a.name).String(a.media_type);
+      AppendRecord(summary, kAttachmentIndex, body);
+    }
+  });
+  group(kMetadataIndex, [&] {
+    for (const MetadataIndex& m : metadata_indexes_) {
+      Bytes body;
+      Put(body).Int(m.offset).Int(m.length).String(m.name);
+      AppendRecord(summary, kMetadataIndex, body);
+    }
+  });
+
+  const std::uint64_t offsets_start = summary_start + summary.size();
+  Put(summary).Raw(offsets);
+  Put(summary).Int(static_cast<std::uint8_t>(kFooter)).Int(std::uint64_t{8 + 8 + 4});
+  Put(summary).Int(summary_start).Int(offsets_start);
+  Put(summary).Int(Crc(summary));
+  Put(summary).Raw(std::as_bytes(std::span(kMagic)));
+  Emit(summary);
+}
+
+void McapWriter::Close() {
+  if (closed_) return;
+  closed_ = true;
+  FlushChunk();
+  Bytes body, bytes;
+  Put(body).Int(std::uint32_t{0});  // 0: the data section has no checksum of its own
+  AppendRecord(bytes, kDataEnd, body);
+  Emit(bytes);
+  WriteSummary();
+  out_.close();
+  if (!out_) throw core::FileError(path_, "cannot write", errno);
+}
+
+}  // namespace scoria::logs

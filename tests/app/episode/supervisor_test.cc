@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One scenario per transition of the supervisor: the event is there, the robot walks on and the
+// stage comes back; switched off, there is no event.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "app/episode/runner.h"
+#include "terrains/generator.h"
+#include "tests/support/robots.h"
+
+namespace scoria::app {
+namespace {
+
+struct Outcome {
+  int falls = 0;
+  std::vector<std::string> events;  // of the supervisor
+  [[nodiscard]] bool Has(const std::string& beginning) const {
+    return std::any_of(events.begin(), events.end(),
+                       [&](const std::string& e) { return e.rfind(beginning, 0) == 0; });
+  }
+};
+
+Outcome Walk(const std::string& watch, bool enabled) {
+  const Scenario scenario = test::LoadScenario(
+      "supervisor/" + watch, {fmt::format("controller.supervisor.enabled={}", enabled)});
+  const core::RobotDescription robot = core::LoadRobot(scenario.robot);
+  const terrains::Heightfield ground =
+      terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);
+  Outcome out;
+  EpisodeSinks sinks;
+  sinks.on_event = [&](double, const std::string& kind, const std::string& detail) {
+    if (kind == "supervisor") out.events.push_back(detail);
+  };
+  out.falls = RunEpisode(scenario, robot, ground, sinks).falls;
+  return out;
+}
+
+class SupervisorScenario : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(SupervisorScenario, FallsBackWithItsReasonAndTheRobotWalksOn) {
+  const std::string watch = GetParam();
+  const Outcome on = Walk(watch, true);
+  EXPECT_EQ(on.falls, 0);
+  EXPECT_TRUE(on.Has(watch + ": falls back on ")) << fmt::format("{}", fmt::join(on.events, "; "));
+  EXPECT_TRUE(on.Has(watch + ": comes back"));
+  EXPECT_TRUE(Walk(watch, false).events.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Watches, SupervisorScenario,
+                         ::testing::Values("mpc", "body", "estimator", "contact", "footing",
+                                           "load"),
+                         [](const auto& test) { return std::string(test.param); });
+
+// The gait changes while the contact stage is on its fallback: the fallback stays engaged.
+TEST(SupervisorScenario, ChangeOfTheControllerKeepsTheContactFallback) {
+  const Scenario scenario = test::LoadScenario(
+      "supervisor/contact", {"controller_changes=[{at_s: 8, set: [gait.type=sgs]}, {at_s: 9, set: "
+                             "[contact.touchdown_delay_s=0.003]}]",
+                             "duration_s=12"});
+  const core::RobotDescription robot = core::LoadRobot(scenario.robot);
+  const terrains::Heightfield ground =
+      terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);
+  long on_fallback = 0, by_failed_sensor = 0;
+  bool engaged = false;  // before this row's contacts were found
+  EpisodeSinks sinks;
+  sinks.on_row = [&](const logs::LogRow& row, const logs::SolveTimes&) {
+    const bool was_engaged = engaged;
+    engaged = row.fallen_back[static_cast<std::size_t>(controller::Watch::kContact)];
+    if (!was_engaged || !engaged) return;
+    ++on_fallback;
+    for (std::size_t leg = 0; leg < 4; ++leg) {
+      const bool sensor = row.contact_source[leg] == static_cast<int>(ContactSource::kSensor);
+      by_failed_sensor += sensor && !row.sensor_healthy[leg];
+    }
+  };
+  (void)RunEpisode(scenario, robot, ground, sinks);
+  EXPECT_GT(on_fallback, 1000);
+  EXPECT_EQ(by_failed_sensor, 0);
+}
+
+}  // namespace
+}  // namespace scoria::app
