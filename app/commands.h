@@ -3,8 +3,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/cli/exit_codes.h"
-
 namespace scoria::app {
 
 /// Adds every subcommand of `scoria`. The one that the user names sets `exit_code`.

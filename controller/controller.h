@@ -139,6 +139,8 @@ class Controller {
   /// are. Allocates.
   void Reconfigure(const ControllerParams& params);
 
+  /// What the last Step decided.
+  [[nodiscard]] const ControlOutput& output() const noexcept { return out_; }
   /// Everything that did not go to plan, since the start.
   [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
   /// What gait, MPC and body control act on.

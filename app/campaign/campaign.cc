@@ -89,7 +89,7 @@ void AddJobs(const Campaign& campaign, const CampaignArm& arm, std::vector<std::
 
 }  // namespace
 
-std::vector<CampaignJob> AllJobs(const Campaign& campaign) {
+std::vector<CampaignJob> Plan(const Campaign& campaign) {
   std::vector<CampaignJob> jobs;
   for (const CampaignArm& arm : campaign.arms) {
     std::vector<std::size_t> point;
@@ -120,7 +120,7 @@ Campaign LoadCampaign(const fs::path& file, const std::vector<std::string>& over
   for (const ArmFile& arm : read.arms) campaign.arms.push_back(ToArm(arm));
   for (std::size_t i = 0; i < read.sweep.size(); ++i)
     campaign.sweep.push_back(MakeAxis(read.sweep[i], node.Find("sweep")->items[i], i));
-  (void)AllJobs(campaign);  // checks every scenario
+  (void)Plan(campaign);  // checks every scenario
   return campaign;
 }
 

@@ -51,7 +51,7 @@ struct CampaignJob {
 
 /// Every combination of arms, values and seeds.
 /// Errors: core::ConfigError if a scenario is wrong or two episodes have one name.
-[[nodiscard]] std::vector<CampaignJob> AllJobs(const Campaign& campaign);
+[[nodiscard]] std::vector<CampaignJob> Plan(const Campaign& campaign);
 
 struct CampaignOptions {
   std::filesystem::path folder;  // out/NAME by default

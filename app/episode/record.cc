@@ -194,6 +194,29 @@ msg::ControllerInfo MakeControllerInfo(const StepRecord& r) {
   return m;
 }
 
+msg::ControllerInput MakeControllerInput(const StepRecord& r) {
+  const SensorFrame& z = r.sensors;
+  msg::ControllerInput m;
+  m.step = z.step;
+  m.imu_time_s = z.imu_time_s;
+  m.q_rad = Flatten(z.q);
+  m.qd_radps = Flatten(z.qd);
+  m.tau_nm = Flatten(z.tau_Nm);
+  m.specific_force_mps2 = ToArray(z.a_WS_S);
+  m.rate_radps = ToArray(z.w_WS_S);
+  m.foot_force_raw = ToArray(z.foot_force_raw);
+  m.v_x_mps = r.command.v_x_mps;
+  m.v_y_mps = r.command.v_y_mps;
+  m.w_z_radps = r.command.w_z_radps;
+  m.height_m = r.command.height_m;
+  m.roll_rad = r.command.roll_rad;
+  m.pitch_rad = r.command.pitch_rad;
+  m.pattern = static_cast<std::uint8_t>(r.command.pattern);
+  m.mpc_fault = static_cast<std::uint8_t>(r.faults.mpc);
+  m.wbc_fault = static_cast<std::uint8_t>(r.faults.wbc);
+  return m;
+}
+
 }  // namespace
 
 const std::vector<Topic>& RecordedTopics() {
@@ -231,7 +254,7 @@ void Recorder::Write(const Topic& topic, double time_s, Message message) {
   sink_.Write(topic, ToNanoseconds(time_s), buffer_);
 }
 
-void Recorder::Record(const StepRecord& r, const logs::LogRow& row) {
+void Recorder::OnRow(const StepRecord& r, const logs::LogRow& row) {
   RecordSensors(r);
   RecordBody(r);
   if (r.control.mpc_updated) RecordPlans(r);
@@ -284,17 +307,16 @@ void Recorder::RecordSlow(const StepRecord& r) {
   if (learns) Write(topics[kModel], r.time_s, MakeQuadModel(r));
 }
 
-void Recorder::RecordEvent(std::int64_t step, double time_s, const std::string& kind,
-                           const std::string& detail) {
-  msg::Event event{step, kind, detail};
-  Write(RecordedTopics()[kEvent], time_s, event);
+void Recorder::OnEvent(const EpisodeEvent& event) {
+  const std::string& kind = event.kind;
+  Write(RecordedTopics()[kEvent], event.time_s, msg::Event{event.step, kind, event.detail});
   // What replay needs to go on, and what robots are watched for.
   const bool worth_keeping =
       kind != "placed" && kind != "poor_ground" && kind != "contact_source" && kind != "payload";
-  if (worth_keeping) sink_.MarkFall(ToNanoseconds(time_s));
+  if (worth_keeping) sink_.MarkFall(ToNanoseconds(event.time_s));
 }
 
-void Recorder::RecordStart(double time_s, const controller::Start& start) {
+void Recorder::OnStart(double time_s, const controller::Start& start) {
   const controller::Placement& at = start.placement;
   msg::ControllerStart message{start.step,     start.pose == controller::Start::Pose::kStanding,
                                at.p_WB_xy.x(), at.p_WB_xy.y(),
@@ -302,34 +324,10 @@ void Recorder::RecordStart(double time_s, const controller::Start& start) {
   Write(RecordedTopics()[kStart], time_s, message);
 }
 
-void Recorder::RecordInput(double time_s, const SensorFrame& z, const Command& command,
-                           const controller::SolverFaults& faults) {
-  msg::ControllerInput m;
-  m.step = z.step;
-  m.imu_time_s = z.imu_time_s;
-  m.q_rad = Flatten(z.q);
-  m.qd_radps = Flatten(z.qd);
-  m.tau_nm = Flatten(z.tau_Nm);
-  m.specific_force_mps2 = ToArray(z.a_WS_S);
-  m.rate_radps = ToArray(z.w_WS_S);
-  m.foot_force_raw = ToArray(z.foot_force_raw);
-  m.v_x_mps = command.v_x_mps;
-  m.v_y_mps = command.v_y_mps;
-  m.w_z_radps = command.w_z_radps;
-  m.height_m = command.height_m;
-  m.roll_rad = command.roll_rad;
-  m.pitch_rad = command.pitch_rad;
-  m.pattern = static_cast<std::uint8_t>(command.pattern);
-  m.mpc_fault = static_cast<std::uint8_t>(faults.mpc);
-  m.wbc_fault = static_cast<std::uint8_t>(faults.wbc);
-  Write(RecordedTopics()[kInput], time_s, m);
+void Recorder::OnStep(const StepRecord& r) {
+  Write(RecordedTopics()[kInput], r.time_s, MakeControllerInput(r));
+  if (r.state_hash) Write(RecordedTopics()[kHash], r.time_s, msg::StateHash{r.step, *r.state_hash});
 }
-
-void Recorder::RecordHash(std::int64_t step, double time_s, std::uint64_t hash) {
-  msg::StateHash message{step, hash};
-  Write(RecordedTopics()[kHash], time_s, message);
-}
-
 FileSink::FileSink(const std::filesystem::path& path, const Scenario& scenario,
                    const core::RobotDescription& robot, const logs::McapMetadata& extra)
     : writer_(path), params_(scenario.log) {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/episode/rows.h"
+#include "app/episode/observer.h"
 #include "app/scenario/scenario.h"
 #include "controller/controller.h"
 #include "logs/format/mcap.h"
@@ -36,18 +36,15 @@ class MessageSink {
 };
 
 /// Turns steps into the log's messages: the reference framework's topics and ours.
-class Recorder {
+class Recorder final : public EpisodeObserver {
  public:
   /// `sink` is borrowed.
   Recorder(MessageSink& sink, const Scenario& scenario);
-  void Record(const StepRecord& record, const logs::LogRow& row);
-  void RecordEvent(std::int64_t step, double time_s, const std::string& kind,
-                   const std::string& detail);
-  void RecordStart(double time_s, const controller::Start& start);
-  /// Every physics step.
-  void RecordInput(double time_s, const SensorFrame& z, const Command& command,
-                   const controller::SolverFaults& faults);
-  void RecordHash(std::int64_t step, double time_s, std::uint64_t hash);
+  void OnStart(double time_s, const controller::Start& start) override;
+  void OnRow(const StepRecord& record, const logs::LogRow& row) override;
+  void OnStep(const StepRecord& record) override;
+  void OnEvent(const EpisodeEvent& event) override;
+  [[nodiscard]] bool wants_rows() const override { return true; }
 
  private:
   template <class Message>

@@ -52,6 +52,11 @@ void FillEstimate(const controller::ControlOutput& control, const RobotState& tr
   row.learned_tared = control.adaptation.tared;
 }
 
+logs::SolveTimes SolveTimesOf(const controller::ControlOutput& control) {
+  return {control.mpc_updated ? control.mpc_solve_s : 0.0,
+          control.wbc_updated ? control.wbc_solve_s : 0.0};
+}
+
 logs::LogRow MakeRow(const StepRecord& r) {
   logs::LogRow row;
   const RobotState& s = r.truth.state;

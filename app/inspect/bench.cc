@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/json_text.h"
-#include "app/episode/runner.h"
+#include "app/episode/run_episode.h"
 #include "app/inspect/qp_sets.h"
 #include "controller/estimation/inekf.h"
 #include "controller/stand_up.h"
@@ -199,7 +199,7 @@ void BenchEpisode(const Options& o) {
   const core::RobotDescription robot = core::LoadRobot(scenario.robot);
   const terrains::Heightfield ground =
       terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);
-  const EpisodeResult r = RunEpisode(scenario, robot, ground, {});
+  const EpisodeResult r = RunEpisode(scenario, robot, ground);
   const double steps = r.duration_s / scenario.physics.step_s;
   nlohmann::json json = {{"scenario", scenario.name},
                          {"simulated_s", r.duration_s},

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "app/episode/record.h"
+#include "app/episode/rows.h"
 #include "app/run/log_origin.h"
 #include "core/math/so3.h"
 #include "logs/format/cdr.h"

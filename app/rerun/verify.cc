@@ -5,8 +5,8 @@
 #include <map>
 #include <optional>
 
+#include "app/episode/episode.h"
 #include "app/episode/record.h"
-#include "app/episode/runner.h"
 #include "app/run/log_origin.h"
 #include "core/hash.h"
 
@@ -160,12 +160,11 @@ VerifyResult VerifyLog(const std::filesystem::path& log) {
   const core::RobotDescription robot = RobotOf(origin);
   const terrains::Heightfield ground = GroundOf(origin);
   CompareSink sink(log, origin.scenario);
-  std::atomic<bool> done = false;
-  EpisodeSinks sinks;
-  sinks.messages = &sink;
-  sinks.interrupted = &done;  // a log that ends early is compared as far as it goes
-  sinks.on_progress = [&](double time_s) { done = sink.Finished(time_s); };
-  (void)RunEpisode(origin.scenario, robot, ground, sinks);
+  Recorder recorder(sink, origin.scenario);
+  const auto episode = std::make_unique<Episode>(origin.scenario, robot, ground);
+  episode->Attach(recorder);
+  // A log that ends early is compared as far as it goes.
+  while (!episode->ended() && !sink.Finished(episode->time_s())) episode->Step();
   return sink.Result();
 }
 

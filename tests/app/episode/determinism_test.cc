@@ -6,10 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "app/campaign/campaign.h"
+#include "app/episode/run_episode.h"
 #include "app/rerun/replay.h"
 #include "app/rerun/verify.h"
-#include "app/run/episode_files.h"
 #include "app/run/log_origin.h"
+#include "app/run/run_scenario.h"
 #include "core/files.h"
 #include "logs/messages/scoria.h"
 #include "terrains/generator.h"
@@ -41,7 +42,7 @@ TEST(Determinism, SameBitsWithAndWithoutLog) {
   const core::RobotDescription robot = core::LoadRobot(scenario.robot);
   const terrains::Heightfield ground =
       terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);
-  EXPECT_EQ(RunEpisode(scenario, robot, ground, {}).state_hash, full);
+  EXPECT_EQ(RunEpisode(scenario, robot, ground).state_hash, full);
   scenario.seed = 2;
   EXPECT_NE(RunInto(scenario, folder.path() / "other").result.state_hash, full);
 }
@@ -94,7 +95,7 @@ TEST(Determinism, MpcOnItsOwnThreadGivesTheSameBits) {
       const core::RobotDescription robot = core::LoadRobot(scenario.robot);
       const terrains::Heightfield ground =
           terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);
-      hashes.push_back(RunEpisode(scenario, robot, ground, {}).state_hash);
+      hashes.push_back(RunEpisode(scenario, robot, ground).state_hash);
     }
     EXPECT_EQ(hashes[0], hashes[1]) << "latency " << latency;
   }

@@ -3,8 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "app/episode/function_observer.h"
 #include "app/episode/operator.h"
-#include "app/episode/runner.h"
+#include "app/episode/run_episode.h"
 #include "core/math/so3.h"
 #include "core/rng.h"
 #include "core/robot/whole_body.h"
@@ -77,10 +78,10 @@ TEST(Placement, OnSmallTilesTheRobotIsPutBesideItsFall) {
     scenario.operation = RouteParams{};
     scenario.pushes = {{3.0, 0.1, 70.0, 1.5708}};
     std::vector<Vec2> falls, places;
-    EpisodeSinks sinks;
+    FunctionObserver observer;
     std::optional<Vec2> last_W;
     std::uint32_t segment = 0;
-    sinks.on_row = [&](const logs::LogRow& row, const logs::SolveTimes&) {
+    observer.on_row = [&](const StepRecord&, const logs::LogRow& row) {
       const Vec2 p_WB(row.p_WB_m[0], row.p_WB_m[1]);
       if (last_W && row.segment != segment) {
         falls.push_back(*last_W);
@@ -89,7 +90,7 @@ TEST(Placement, OnSmallTilesTheRobotIsPutBesideItsFall) {
       last_W = p_WB;
       segment = row.segment;
     };
-    (void)RunEpisode(scenario, test::Go2(), test::FlatGround(0.8, size_m), sinks);
+    (void)RunEpisode(scenario, test::Go2(), test::FlatGround(0.8, size_m), {&observer});
     ASSERT_FALSE(falls.empty()) << size_m;
     const double loop_m = 0.5 * size_m - 2.0, off_loop_m = std::abs(falls.front().norm() - loop_m);
     EXPECT_LT((places.front() - falls.front()).norm(), off_loop_m + 0.7) << size_m;

@@ -6,7 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "app/episode/runner.h"
+#include "app/episode/function_observer.h"
+#include "app/episode/run_episode.h"
 #include "terrains/generator.h"
 #include "tests/support/robots.h"
 
@@ -36,9 +37,8 @@ std::vector<typename Kept<Message>::Dated> Record(const Scenario& scenario) {
   const core::RobotDescription robot = core::LoadRobot(scenario.robot);
   const terrains::Heightfield ground =
       terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);
-  EpisodeSinks sinks;
-  sinks.messages = &kept;
-  (void)RunEpisode(scenario, robot, ground, sinks);
+  Recorder recorder(kept, scenario);
+  (void)RunEpisode(scenario, robot, ground, {&recorder});
   return kept.messages;
 }
 

@@ -7,7 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "app/episode/runner.h"
+#include "app/episode/function_observer.h"
+#include "app/episode/run_episode.h"
 #include "terrains/generator.h"
 #include "tests/support/robots.h"
 
@@ -30,11 +31,11 @@ Outcome Walk(const std::string& watch, bool enabled) {
   const terrains::Heightfield ground =
       terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);
   Outcome out;
-  EpisodeSinks sinks;
-  sinks.on_event = [&](double, const std::string& kind, const std::string& detail) {
-    if (kind == "supervisor") out.events.push_back(detail);
+  FunctionObserver observer;
+  observer.on_event = [&](const EpisodeEvent& event) {
+    if (event.kind == "supervisor") out.events.push_back(event.detail);
   };
-  out.falls = RunEpisode(scenario, robot, ground, sinks).falls;
+  out.falls = RunEpisode(scenario, robot, ground, {&observer}).falls;
   return out;
 }
 
@@ -65,8 +66,8 @@ TEST(SupervisorScenario, ChangeOfTheControllerKeepsTheContactFallback) {
       terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);
   long on_fallback = 0, by_failed_sensor = 0;
   bool engaged = false;  // before this row's contacts were found
-  EpisodeSinks sinks;
-  sinks.on_row = [&](const logs::LogRow& row, const logs::SolveTimes&) {
+  FunctionObserver observer;
+  observer.on_row = [&](const StepRecord&, const logs::LogRow& row) {
     const bool was_engaged = engaged;
     engaged = row.fallen_back[static_cast<std::size_t>(controller::Watch::kContact)];
     if (!was_engaged || !engaged) return;
@@ -76,7 +77,7 @@ TEST(SupervisorScenario, ChangeOfTheControllerKeepsTheContactFallback) {
       by_failed_sensor += sensor && !row.sensor_healthy[leg];
     }
   };
-  (void)RunEpisode(scenario, robot, ground, sinks);
+  (void)RunEpisode(scenario, robot, ground, {&observer});
   EXPECT_GT(on_fallback, 1000);
   EXPECT_EQ(by_failed_sensor, 0);
 }

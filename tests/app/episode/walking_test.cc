@@ -7,7 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "analysis/metrics/metrics.h"
-#include "app/episode/runner.h"
+#include "app/episode/function_observer.h"
+#include "app/episode/rows.h"
+#include "app/episode/run_episode.h"
 #include "core/rng.h"
 #include "terrains/generator.h"
 #include "tests/support/robots.h"
@@ -27,13 +29,13 @@ Outcome Walk(const Scenario& scenario, const Watch& watch = {}) {
   const terrains::Heightfield ground =
       terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);
   analysis::MetricsAccumulator accumulator(scenario.gravity_mps2);
-  EpisodeSinks sinks;
-  sinks.on_row = [&](const logs::LogRow& row, const logs::SolveTimes& times) {
-    accumulator.AddRow(row, times);
+  FunctionObserver observer;
+  observer.on_row = [&](const StepRecord& record, const logs::LogRow& row) {
+    accumulator.AddRow(row, SolveTimesOf(record.control));
     if (watch) watch(row);
   };
   Outcome out;
-  out.result = RunEpisode(scenario, robot, ground, sinks);
+  out.result = RunEpisode(scenario, robot, ground, {&observer});
   out.metrics = accumulator.Finish();
   return out;
 }
@@ -207,15 +209,15 @@ TEST(FootSensorFault, HierarchySwitchesWithinHalfASecondAndTheRobotWalksOn) {
           terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);
       double fault_s = 0.0, last_switch_s = 0.0;
       int switches = 0;
-      EpisodeSinks sinks;
-      sinks.on_event = [&](double time_s, const std::string& what, const std::string&) {
-        if (what == "sensor_fault") fault_s = time_s;
-        if (what == "contact_source") {
-          last_switch_s = time_s;
+      FunctionObserver observer;
+      observer.on_event = [&](const EpisodeEvent& event) {
+        if (event.kind == "sensor_fault") fault_s = event.time_s;
+        if (event.kind == "contact_source") {
+          last_switch_s = event.time_s;
           ++switches;
         }
       };
-      const EpisodeResult result = RunEpisode(scenario, robot, ground, sinks);
+      const EpisodeResult result = RunEpisode(scenario, robot, ground, {&observer});
       EXPECT_EQ(result.falls, 0) << kind << feet;
       EXPECT_EQ(switches, feet) << kind << feet;
       EXPECT_GT(fault_s, 0.0);
@@ -270,13 +272,13 @@ TEST_P(SwitchWhileWalking, KeepsWalkingWithoutATorqueStep) {
   double ordinary_Nm = 0.0, switching_Nm = 0.0, switched_s = -1.0;
   std::array<double, kNumJoints> last{};
   std::size_t changes = 0;
-  EpisodeSinks sinks;
-  sinks.on_event = [&](double time_s, const std::string& kind, const std::string&) {
-    if (kind != "controller_change") return;
-    switched_s = time_s;
+  FunctionObserver observer;
+  observer.on_event = [&](const EpisodeEvent& event) {
+    if (event.kind != "controller_change") return;
+    switched_s = event.time_s;
     ++changes;
   };
-  sinks.on_row = [&](const logs::LogRow& row, const logs::SolveTimes&) {
+  observer.on_row = [&](const StepRecord&, const logs::LogRow& row) {
     double step_Nm = 0.0;
     for (std::size_t j = 0; j < last.size(); ++j)
       step_Nm = std::max(step_Nm, std::abs(row.tau_Nm[j] - last[j]));
@@ -286,7 +288,7 @@ TEST_P(SwitchWhileWalking, KeepsWalkingWithoutATorqueStep) {
     double& largest = after ? switching_Nm : ordinary_Nm;
     largest = std::max(largest, step_Nm);
   };
-  EXPECT_EQ(RunEpisode(scenario, robot, ground, sinks).falls, 0);
+  EXPECT_EQ(RunEpisode(scenario, robot, ground, {&observer}).falls, 0);
   EXPECT_EQ(changes, tour.size());
   EXPECT_LE(switching_Nm, ordinary_Nm);
 }
@@ -454,7 +456,7 @@ TEST_P(DrawnPlaces, CarryBothRobots) {
     }
     for (const VelocityProgramme& place : places) {
       scenario.operation = place;
-      const EpisodeResult result = RunEpisode(scenario, robot, *ground, {});
+      const EpisodeResult result = RunEpisode(scenario, robot, *ground);
       EXPECT_EQ(result.falls, 0) << fmt::format(
           "{} at {:.2f}, {:.2f}: {}", robot_file, place.start_x_m, place.start_y_m,
           result.fall_events.empty() ? "" : result.fall_events.front().cause);

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/run/episode_files.h"
+#include "app/run/run_scenario.h"
 #include "tests/support/robots.h"
 
 namespace scoria::app {

@@ -7,7 +7,7 @@
 
 #include "app/rerun/replay.h"
 #include "app/rerun/verify.h"
-#include "app/run/episode_files.h"
+#include "app/run/run_scenario.h"
 #include "core/files.h"
 #include "core/robot/mesh_records.h"
 #include "tests/support/program.h"

@@ -7,7 +7,8 @@
 #include <string>
 
 #include "analysis/metrics/metrics.h"
-#include "app/episode/runner.h"
+#include "app/episode/episode_result.h"
+#include "app/scenario/scenario.h"
 
 namespace scoria::app {
 
@@ -16,6 +17,7 @@ namespace scoria::app {
 struct EpisodeReport {
   EpisodeResult result;
   analysis::EpisodeMetrics metrics;
+  double simulated_s = 0.0;       // at least one step
   double real_time_factor = 0.0;  // simulated time over wall time, without set-up
   double commanded_m = 0.0;       // horizontal way, three seconds for standing up left out
   std::string failure;            // why this was no walk, in words; empty if it was one

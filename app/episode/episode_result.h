@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <atomic>
-#include <functional>
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "analysis/metrics/metrics.h"
-#include "app/episode/record.h"
-#include "app/scenario/scenario.h"
-#include "logs/row.h"
+#include "app/episode/route.h"
+#include "core/robot/counters.h"
+#include "core/stage_times.h"
 
 namespace scoria::app {
 
@@ -21,16 +24,6 @@ constexpr std::array<std::pair<EpisodeEnd, std::string_view>, 6> EnumNames(Episo
            {EpisodeEnd::kInterrupted, "interrupted"}}};
 }
 
-/// Where an episode's facts go while it runs; all optional and borrowed.
-struct EpisodeSinks {
-  std::function<void(const logs::LogRow&, const logs::SolveTimes&)> on_row;
-  std::function<void(double time_s, const std::string& kind, const std::string& detail)> on_event;
-  std::function<void(const controller::Controller&, const controller::ControlOutput&)> on_control;
-  MessageSink* messages = nullptr;
-  std::function<void(double time_s)> on_progress;  // a few times per simulated second
-  const std::atomic<bool>* interrupted = nullptr;
-};
-
 struct EpisodeResult {
   EpisodeEnd end = EpisodeEnd::kCompleted;
   double duration_s = 0.0;  // simulated
@@ -43,12 +36,5 @@ struct EpisodeResult {
   std::int64_t unconverged_steps = 0;            // of the physics' contact solver
   core::StageTimes times;                        // wall clock, without set-up
 };
-
-/// Walks one episode: sensors -> controller -> actuation -> world, every physics step. The same
-/// scenario gives the same bits, whatever is recorded.
-[[nodiscard]] EpisodeResult RunEpisode(const Scenario& scenario,
-                                       const core::RobotDescription& robot,
-                                       const terrains::Heightfield& ground,
-                                       const EpisodeSinks& sinks);
 
 }  // namespace scoria::app

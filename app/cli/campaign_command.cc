@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/cli/commands.h"
+
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "app/campaign/campaign.h"
+#include "app/cli/interrupts.h"
+#include "app/cli/note.h"
+#include "core/files.h"
+
+namespace scoria::app {
+namespace {
+
+void PrintOutcome(const std::string& name, const CampaignOutcome& outcome,
+                  const std::string& folder) {
+  if (!outcome.disk_problem.empty()) Note(outcome.disk_problem);
+  fmt::print("{}: {} episodes ({} from before, {} crashed, {} did not walk){} in {}\n", name,
+             outcome.episodes, outcome.done_before, outcome.crashed, outcome.failed,
+             outcome.interrupted ? ", interrupted" : "", folder);
+  if (outcome.unfinished > 0) {
+    fmt::print("{} episodes are to be walked yet; {}the same command goes on with them\n",
+               outcome.unfinished, outcome.disk_problem.empty() ? "" : "make room, and then ");
+  }
+}
+
+}  // namespace
+
+void AddCampaign(CLI::App& app, int& exit_code) {
+  struct Options {
+    std::string file, out;
+    std::vector<std::string> set;
+    int workers = 2;
+  };
+  auto o = std::make_shared<Options>();
+  CLI::App* campaign =
+      app.add_subcommand("campaign", "walk arms x sweep x seeds in worker processes; resumes");
+  campaign->add_option("campaign", o->file, "campaign YAML")->required();
+  campaign->add_option("--set", o->set,
+                       "override a key, as seeds=10 or scenario.operator.distance_m=50");
+  campaign->add_option("--out", o->out, "folder for the results (default out/NAME)");
+  campaign->add_option("--workers", o->workers, "processes at a time")->check(CLI::Range(1, 1024));
+  campaign->callback([o, &exit_code] {
+    const Campaign loaded = LoadCampaign(o->file, o->set);
+        CampaignOptions options;
+    options.folder = o->out.empty() ? std::filesystem::path("out") / core::FileNameOf(loaded.name)
+                                    : std::filesystem::path(o->out);
+    options.workers = o->workers;
+    options.program = std::filesystem::read_symlink("/proc/self/exe").string();
+    options.interrupted = &Interrupted();
+    options.on_again = [](const std::string& reason, int episodes) {
+      Note(fmt::format("walked again: {} ({})",
+                       episodes == 1 ? "1 episode" : fmt::format("{} episodes", episodes), reason));
+    };
+    const CampaignOutcome outcome = RunCampaign(loaded, options);
+    PrintOutcome(loaded.name, outcome, options.folder.string());
+    const bool stopped = outcome.interrupted || outcome.unfinished > 0;
+    exit_code = !outcome.disk_problem.empty() ? kFileError : stopped ? kStopped : kOk;
+  });
+}
+
+}  // namespace scoria::app

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/cli/commands.h"
+
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "app/scenario/config_docs.h"
+#include "app/scenario/config_kinds.h"
+
+namespace scoria::app {
+
+void AddSchema(CLI::App& app) {
+  struct Options {
+    std::string kind = "scenario";
+    bool markdown = false;
+  };
+  auto o = std::make_shared<Options>();
+  CLI::App* schema = app.add_subcommand("schema", "print the keys of a YAML file as a JSON Schema");
+  std::vector<std::string> kinds;
+  for (const ConfigKind& kind : ConfigKinds()) kinds.emplace_back(kind.name);
+  schema->add_option("kind", o->kind, "kind of file (default scenario)")
+      ->check(CLI::IsMember(kinds));
+  schema->add_flag("--markdown", o->markdown, "all kinds as the tables of docs/CONFIG.md");
+  schema->callback(
+      [o] { fmt::print("{}", o->markdown ? ConfigMarkdown() : ConfigJsonSchema(o->kind)); });
+}
+
+}  // namespace scoria::app
