@@ -53,7 +53,8 @@ class ScenarioRun {
     };
     progress_.on_step = [this](const StepRecord& record) {
       constexpr int kEvery = 250;
-      if (record.step % kEvery == 0) options_.on_progress(record.time_s, falls_);
+      if (options_.on_progress && record.step % kEvery == 0)
+        options_.on_progress(record.time_s, falls_);
     };
     progress_.on_event = [this](const EpisodeEvent& event) {
       if (event.kind == "fall") ++falls_;
