@@ -95,8 +95,7 @@ class CampaignRunner {
     return options_.interrupted != nullptr && options_.interrupted->load();
   }
   [[nodiscard]] bool MayStart() const {
-    return !stopped() && outcome_.disk_problem.empty() && !waiting_.empty() &&
-           pool_->HasRoom();
+    return !stopped() && outcome_.disk_problem.empty() && !waiting_.empty() && pool_->HasRoom();
   }
 
   void Start() {

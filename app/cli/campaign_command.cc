@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/cli/commands.h"
-
 #include <filesystem>
 #include <memory>
 
 #include <fmt/format.h>
 
 #include "app/campaign/campaign.h"
+#include "app/cli/commands.h"
 #include "app/cli/interrupts.h"
 #include "app/cli/note.h"
 #include "core/files.h"
@@ -44,7 +43,7 @@ void AddCampaign(CLI::App& app, int& exit_code) {
   campaign->add_option("--workers", o->workers, "processes at a time")->check(CLI::Range(1, 1024));
   campaign->callback([o, &exit_code] {
     const Campaign loaded = LoadCampaign(o->file, o->set);
-        CampaignOptions options;
+    CampaignOptions options;
     options.folder = o->out.empty() ? std::filesystem::path("out") / core::FileNameOf(loaded.name)
                                     : std::filesystem::path(o->out);
     options.workers = o->workers;

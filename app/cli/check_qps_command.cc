@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/cli/commands.h"
-
 #include <memory>
 
 #include <fmt/format.h>
 
+#include "app/cli/commands.h"
 #include "app/inspect/qp_check.h"
 
 namespace scoria::app {

@@ -7,7 +7,8 @@
 
 namespace scoria::app {
 
-/// Each adds one subcommand of `scoria`, which sets `exit_code` if it ends in another way than well.
+/// Each adds one subcommand of `scoria`, which sets `exit_code` if it ends in another way than
+/// well.
 void AddRun(CLI::App& app, int& exit_code);
 void AddCampaign(CLI::App& app, int& exit_code);
 void AddReport(CLI::App& app);

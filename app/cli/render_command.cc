@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/cli/commands.h"
-
 #include <charconv>
 #include <cmath>
 #include <memory>
@@ -8,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "analysis/video/video.h"
+#include "app/cli/commands.h"
 #include "app/cli/note.h"
 #include "app/cli/progress.h"
 #include "app/run/log_origin.h"

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/cli/commands.h"
-
 #include <memory>
 
 #include <fmt/format.h>
 
 #include "analysis/report/report.h"
 #include "app/campaign/report_picture.h"
+#include "app/cli/commands.h"
 
 namespace scoria::app {
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/cli/commands.h"
-
 #include <cmath>
 #include <fstream>
 #include <memory>
@@ -8,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "app/cli/commands.h"
 #include "app/cli/interrupts.h"
 #include "app/cli/note.h"
 #include "app/cli/print_estimation.h"
@@ -83,7 +82,7 @@ void AddRun(CLI::App& app, int& exit_code) {
   run->add_flag("--quiet", o->quiet, "print nothing but what goes wrong");
   run->callback([o, &exit_code] {
     const Scenario scenario = LoadScenario(o->scenario, o->set);
-        RunOptions options;
+    RunOptions options;
     const std::filesystem::path preferred =
         std::filesystem::path("out") / core::FileNameOf(scenario.name);
     const RunFolder folder = TakeRunFolder(o->out, preferred, o->force);

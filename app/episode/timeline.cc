@@ -11,9 +11,8 @@ std::vector<Push> Pushes::Update(double clock_s, double time_s, double yaw_rad) 
     const Push& push = pushes_[i];
     if (active_[i] || clock_s <= push.at_s) continue;
     const double azimuth = yaw_rad + push.azimuth_rad;
-    active_[i] = {
-        time_s + push.duration_s,
-        push.impulse_Ns / push.duration_s * Vec3(std::cos(azimuth), std::sin(azimuth), 0.0)};
+    active_[i] = {time_s + push.duration_s, push.impulse_Ns / push.duration_s *
+                                                Vec3(std::cos(azimuth), std::sin(azimuth), 0.0)};
     started.push_back(push);
   }
   return started;

@@ -84,16 +84,15 @@ class ScenarioRun {
     RemoveOldRun(options_.folder);
     core::WriteText(options_.folder / "scenario.yaml", EffectiveYaml(scenario_));
     if (options_.on_warning) Warn(scenario_, robot_, terrain_, options_.on_warning);
-    terrain_json_ =
-        analysis::ToJson(terrains::MeasureTerrain(terrain_.ground, scenario_.terrain));
+    terrain_json_ = analysis::ToJson(terrains::MeasureTerrain(terrain_.ground, scenario_.terrain));
     terrain_json_["cut_nodes"] = terrain_.cut_nodes;
   }
 
   void OpenLog() {
     if (scenario_.log.keep == KeepLog::kMetrics) return;
-    file_.emplace(options_.folder / "log.mcap", scenario_, robot_,
-                  logs::McapMetadata{{"version", kVersion},
-                                     {"terrain", analysis::JsonText(terrain_json_)}});
+    file_.emplace(
+        options_.folder / "log.mcap", scenario_, robot_,
+        logs::McapMetadata{{"version", kVersion}, {"terrain", analysis::JsonText(terrain_json_)}});
     observers_.push_back(&recorder_.emplace(*file_, scenario_));
   }
 

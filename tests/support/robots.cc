@@ -67,10 +67,6 @@ RobotState RandomState(core::Rng& rng) {
   return s;
 }
 
-app::Scenario LoadScenario(const std::string& name, const std::vector<std::string>& overrides) {
-  return app::LoadScenario(SourcePath("scenarios/" + name + ".yaml"), overrides);
-}
-
 TemporaryFolder::TemporaryFolder() {
   std::string pattern = (fs::temp_directory_path() / "scoria_test_XXXXXX").string();
   path_ = mkdtemp(pattern.data());

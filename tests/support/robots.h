@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <string>
 
-#include "app/scenario/scenario.h"
 #include "core/rng.h"
 #include "core/robot/description.h"
 #include "core/robot/state.h"
@@ -29,9 +28,6 @@ RobotState RandomState(core::Rng& rng);
 
 /// A file of the repository.
 std::filesystem::path SourcePath(const std::string& relative);
-
-/// A scenario of the repository with overrides.
-app::Scenario LoadScenario(const std::string& name, const std::vector<std::string>& overrides = {});
 
 /// A fresh folder below the system's temporary one, removed by the destructor.
 class TemporaryFolder {

@@ -15,6 +15,7 @@
 #include "logs/messages/scoria.h"
 #include "terrains/generator.h"
 #include "tests/support/robots.h"
+#include "tests/support/scenarios.h"
 
 namespace scoria::app {
 namespace {

@@ -10,6 +10,7 @@
 #include "app/episode/run_episode.h"
 #include "terrains/generator.h"
 #include "tests/support/robots.h"
+#include "tests/support/scenarios.h"
 
 namespace scoria::app {
 namespace {

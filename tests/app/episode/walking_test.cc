@@ -13,6 +13,7 @@
 #include "core/rng.h"
 #include "terrains/generator.h"
 #include "tests/support/robots.h"
+#include "tests/support/scenarios.h"
 
 namespace scoria::app {
 namespace {

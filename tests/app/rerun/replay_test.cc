@@ -5,6 +5,7 @@
 
 #include "app/run/run_scenario.h"
 #include "tests/support/robots.h"
+#include "tests/support/scenarios.h"
 
 namespace scoria::app {
 namespace {

@@ -12,6 +12,7 @@
 #include "core/robot/mesh_records.h"
 #include "tests/support/program.h"
 #include "tests/support/robots.h"
+#include "tests/support/scenarios.h"
 
 namespace scoria::app {
 namespace {

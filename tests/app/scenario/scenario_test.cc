@@ -11,6 +11,7 @@
 #include "app/scenario/config_docs.h"
 #include "core/files.h"
 #include "tests/support/robots.h"
+#include "tests/support/scenarios.h"
 
 namespace scoria::app {
 namespace {
