@@ -3,7 +3,7 @@
 
 namespace scoria::app {
 
-/// Of `scoria`. README.md says when each is given.
+/// Of `scoria`. docs/commands.md says when each is given.
 enum ExitCode { kOk = 0, kFailed = 1, kBadInput = 2, kStopped = 3, kFileError = 4 };
 
 }  // namespace scoria::app
