@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads every #include of the repository and holds it against the house plan.
+// Reads every #include of the repository and holds it against the tables of docs/architecture.md.
+#include <algorithm>
 #include <fstream>
-#include <map>
 #include <regex>
-#include <set>
 
 #include <gtest/gtest.h>
 
+#include "tests/support/markdown.h"
 #include "tests/support/robots.h"
 
 namespace scoria {
@@ -14,85 +14,170 @@ namespace {
 
 namespace fs = std::filesystem;
 
+using Strings = std::vector<std::string>;
+
 struct Include {
-  fs::path file;  // relative to the repository
+  std::string file;  // relative to the repository
   std::string target;
   bool quoted = false;
 };
 
-std::vector<Include> AllIncludes() {
-  std::vector<Include> all;
+bool IsSource(const fs::path& file) {
+  return file.extension() == ".h" || file.extension() == ".cc";
+}
+
+/// Sources of the repository, relative to it; builds and outputs left out.
+std::vector<fs::path> Sources() {
+  std::vector<fs::path> sources;
   const fs::path root = test::SourcePath("");
+  for (const auto& folder : fs::directory_iterator(root)) {
+    const std::string name = folder.path().filename().string();
+    const bool left_out = name.starts_with('.') || name.starts_with("build") || name == "out";
+    if (!folder.is_directory() || left_out) continue;
+    for (const auto& entry : fs::recursive_directory_iterator(folder.path())) {
+      if (IsSource(entry.path())) sources.push_back(fs::relative(entry.path(), root));
+    }
+  }
+  return sources;
+}
+
+std::vector<Include> AllIncludes() {
   const std::regex pattern(R"(^\s*#include\s+([<"])([^>"]+)[>"])");
-  for (const char* folder :
-       {"core", "terrains", "logs", "sim", "controller", "analysis", "app", "tests"}) {
-    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
-      if (entry.path().extension() != ".h" && entry.path().extension() != ".cc") continue;
-      std::ifstream in(entry.path());
-      for (std::string line; std::getline(in, line);) {
-        std::smatch match;
-        if (std::regex_search(line, match, pattern))
-          all.push_back({fs::relative(entry.path(), root), match[2], match[1] == "\""});
-      }
+  std::vector<Include> all;
+  for (const fs::path& source : Sources()) {
+    std::ifstream in(test::SourcePath(source.string()));
+    for (std::string line; std::getline(in, line);) {
+      std::smatch match;
+      if (std::regex_search(line, match, pattern))
+        all.push_back({source.string(), match[2], match[1] == "\""});
     }
   }
   return all;
 }
 
-std::string Top(const fs::path& path) { return path.begin()->string(); }
+/// Rows of a table of docs/architecture.md, without its head.
+std::vector<test::TableRow> TableOf(const std::string& heading) {
+  const test::Page page = test::ReadPage(test::SourcePath("docs/architecture.md"));
+  std::vector<test::TableRow> table = test::FirstTable(test::Section(page, heading));
+  if (!table.empty()) table.erase(table.begin());
+  return table;
+}
 
-TEST(Doors, FoldersIncludeOnlyWhatTheHousePlanAllows) {
-  const std::map<std::string, std::set<std::string>> allowed = {
-      {"core", {"core"}},
-      {"terrains", {"core", "terrains"}},
-      {"logs", {"core", "logs"}},
-      {"sim", {"core", "terrains", "sim"}},
-      {"controller", {"core", "controller"}},
-      {"analysis", {"core", "terrains", "logs", "analysis"}},
-      {"app", {"core", "terrains", "logs", "sim", "controller", "analysis", "app"}},
-      {"tests", {"core", "terrains", "logs", "sim", "controller", "analysis", "app", "tests"}}};
+bool StartsWithAny(const std::string& text, const Strings& beginnings) {
+  return std::any_of(beginnings.begin(), beginnings.end(),
+                     [&](const std::string& beginning) { return text.starts_with(beginning); });
+}
+
+bool Has(const Strings& list, const std::string& item) {
+  return std::find(list.begin(), list.end(), item) != list.end();
+}
+
+/// What the files of a folder may include of the repository.
+struct FolderRule {
+  std::string folder;
+  Strings allowed;  // other folders
+};
+
+std::vector<FolderRule> FolderRules() {
+  std::vector<FolderRule> rules;
+  for (const test::TableRow& row : TableOf("Folders and what they may include")) {
+    for (const std::string& folder : test::CodeSpans(row.at(0)))
+      rules.push_back({folder, test::CodeSpans(row.at(2))});
+  }
+  return rules;
+}
+
+/// The rule of the longest folder that `file` lies in; null if there is none.
+const FolderRule* RuleOf(const std::vector<FolderRule>& rules, const std::string& file) {
+  const FolderRule* best = nullptr;
+  for (const FolderRule& rule : rules) {
+    if (!file.starts_with(rule.folder)) continue;
+    if (best == nullptr || rule.folder.size() > best->folder.size()) best = &rule;
+  }
+  return best;
+}
+
+TEST(Doors, TheLongestFolderBindsAFile) {
+  const std::vector<FolderRule> rules = {{"a/", {}}, {"a/b/", {}}, {"c/", {}}};
+  EXPECT_EQ(RuleOf(rules, "a/x.h"), &rules[0]);
+  EXPECT_EQ(RuleOf(rules, "a/b/x.h"), &rules[1]);
+  EXPECT_EQ(RuleOf(rules, "d/x.h"), nullptr);
+}
+
+TEST(Doors, FoldersIncludeOnlyWhatTheArchitectureAllows) {
+  const std::vector<FolderRule> rules = FolderRules();
   int checked = 0;
   for (const Include& i : AllIncludes()) {
-    if (!i.quoted) continue;
+    // A quoted file that is no header stands in a text, not in code.
+    if (!i.quoted || !i.target.ends_with(".h")) continue;
     ++checked;
-    EXPECT_TRUE(allowed.at(Top(i.file)).contains(Top(i.target)))
+    const FolderRule* rule = RuleOf(rules, i.file);
+    ASSERT_NE(rule, nullptr) << i.file << " lies in no folder of the table";
+    EXPECT_TRUE(i.target.starts_with(rule->folder) || StartsWithAny(i.target, rule->allowed))
         << i.file << " includes " << i.target;
   }
   EXPECT_GT(checked, 200);
 }
 
-TEST(Doors, ControllerStagesDoNotKnowEachOther) {
-  const std::set<std::string> siblings = {"estimation", "gait", "reference",  "mpc",
-                                          "swing",      "wbc",  "adaptation", "safety"};
-  for (const Include& i : AllIncludes()) {
-    if (!i.quoted || Top(i.file) != "controller" || Top(i.target) != "controller") continue;
-    const std::string from = std::next(i.file.begin())->string();
-    const fs::path target(i.target);
-    const std::string to = std::next(target.begin())->string();
-    if (siblings.contains(from)) {
-      EXPECT_TRUE(to == from || to == "model" || to == "qp") << i.file << " includes " << i.target;
-    }
-    if (from == "model" || from == "qp") {
-      EXPECT_EQ(to, from) << i.file << " includes " << i.target;
+TEST(Doors, StagesOfTheControllerHaveRulesOfTheirOwn) {
+  const std::vector<FolderRule> rules = FolderRules();
+  for (const auto& entry : fs::directory_iterator(test::SourcePath("controller"))) {
+    if (!entry.is_directory()) continue;
+    const std::string folder = "controller/" + entry.path().filename().string() + "/";
+    const FolderRule* rule = RuleOf(rules, folder);
+    ASSERT_NE(rule, nullptr);
+    EXPECT_EQ(rule->folder, folder);
+  }
+}
+
+TEST(Doors, NoTwoFoldersIncludeEachOther) {
+  const std::vector<FolderRule> rules = FolderRules();
+  for (const FolderRule& a : rules) {
+    for (const FolderRule& b : rules) {
+      EXPECT_FALSE(Has(a.allowed, b.folder) && Has(b.allowed, a.folder))
+          << a.folder << " and " << b.folder;
     }
   }
 }
 
-TEST(Doors, EnginesStayInTheirRooms) {
+/// Where a library's headers may be included.
+struct LibraryRule {
+  Strings headers;  // their beginnings
+  Strings places;   // paths, * for anything
+};
+
+std::vector<LibraryRule> LibraryRules() {
+  std::vector<LibraryRule> rules;
+  for (const test::TableRow& row : TableOf("Libraries and where they are included"))
+    rules.push_back({test::CodeSpans(row.at(1)), test::CodeSpans(row.at(2))});
+  return rules;
+}
+
+bool Matches(const std::string& path, const std::string& pattern) {
+  const std::size_t star = pattern.find('*');
+  if (star == std::string::npos) return path == pattern;
+  return path.starts_with(pattern.substr(0, star)) && path.ends_with(pattern.substr(star + 1));
+}
+
+TEST(Doors, PlacesMayBeSourcesAlone) {
+  EXPECT_TRUE(Matches("sim/contact/finder.cc", "sim/*.cc"));
+  EXPECT_FALSE(Matches("sim/world.h", "sim/*.cc"));
+  EXPECT_FALSE(Matches("app/main.cc", "sim/*.cc"));
+  EXPECT_TRUE(Matches("app/main.cc", "*"));
+}
+
+TEST(Doors, LibrariesAreIncludedOnlyWhereTheArchitectureAllows) {
+  const std::vector<LibraryRule> rules = LibraryRules();
   for (const Include& i : AllIncludes()) {
-    const std::string top = Top(i.file);
-    if (i.target.find("Bullet") != std::string::npos ||
-        i.target.find("bullet") != std::string::npos) {
-      EXPECT_TRUE(top == "sim" && i.file.extension() == ".cc")
-          << i.file << " includes " << i.target;
-    }
-    if (i.target.starts_with("opencv2") || i.target.starts_with("GL/")) {
-      EXPECT_TRUE(top == "analysis" && i.file.extension() == ".cc")
-          << i.file << " includes " << i.target;
-    }
-    if (i.target.starts_with("spdlog") || i.target.starts_with("CLI/")) {
-      EXPECT_EQ(top, "app") << i.file;
-    }
+    const bool is_standard = i.target.find_first_of("./") == std::string::npos;
+    if (i.quoted || is_standard) continue;
+    const auto rule = std::find_if(rules.begin(), rules.end(), [&](const LibraryRule& r) {
+      return StartsWithAny(i.target, r.headers);
+    });
+    ASSERT_TRUE(rule != rules.end()) << i.file << ": " << i.target << " is in no row of the table";
+    EXPECT_TRUE(std::any_of(rule->places.begin(), rule->places.end(),
+                            [&](const std::string& place) { return Matches(i.file, place); }))
+        << i.file << " includes " << i.target;
   }
 }
 
