@@ -8,7 +8,11 @@ if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release)
 endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
-set(CMAKE_CXX_FLAGS_DEBUG "-O0 -g")
+if(SCORIA_SANITIZE)
+  set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g1")  # the tests walk, so they must be quick enough
+else()
+  set(CMAKE_CXX_FLAGS_DEBUG "-O0 -g")
+endif()
 
 add_library(scoria_options INTERFACE)
 target_compile_options(scoria_options INTERFACE
@@ -18,7 +22,8 @@ target_compile_options(scoria_options INTERFACE
   $<$<BOOL:${SCORIA_WERROR}>:-Werror>
   $<$<BOOL:${SCORIA_MARCH}>:-march=${SCORIA_MARCH}>)
 if(SCORIA_SANITIZE)
-  target_compile_options(scoria_options INTERFACE -fsanitize=${SCORIA_SANITIZE} -fno-omit-frame-pointer -g)
+  target_compile_options(scoria_options INTERFACE
+    -fsanitize=${SCORIA_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(scoria_options INTERFACE -fsanitize=${SCORIA_SANITIZE})
 endif()
 
