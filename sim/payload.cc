@@ -88,70 +88,70 @@ std::string PayloadProblem(std::span<const PayloadEvent> events) {
   return "";
 }
 
-double PayloadRack::Ramp::At(double clock_s) const noexcept {
-  return duration_s > 0.0 ? std::clamp((clock_s - begin_s) / duration_s, 0.0, 1.0) : 1.0;
+double PayloadRack::Ramp::At(double time_s) const noexcept {
+  return duration_s > 0.0 ? std::clamp((time_s - begin_s) / duration_s, 0.0, 1.0) : 1.0;
 }
 
 // The ends are exact: from + 1 (to − from) need not be `to`.
-double PayloadRack::Item::ShareAt(double clock_s) const noexcept {
-  const double t = share_ramp.At(clock_s);
+double PayloadRack::Item::ShareAt(double time_s) const noexcept {
+  const double t = share_ramp.At(time_s);
   return t < 1.0 ? share_from + t * (share_to - share_from) : share_to;
 }
 
-Vec3 PayloadRack::Item::PositionAt(double clock_s) const noexcept {
-  const double t = pose_ramp.At(clock_s);
+Vec3 PayloadRack::Item::PositionAt(double time_s) const noexcept {
+  const double t = pose_ramp.At(time_s);
   return t < 1.0 ? Vec3(p_BP_from + t * (p_BP_to - p_BP_from)) : p_BP_to;
 }
 
-Quat PayloadRack::Item::TurnAt(double clock_s) const noexcept {
-  const double t = pose_ramp.At(clock_s);
+Quat PayloadRack::Item::TurnAt(double time_s) const noexcept {
+  const double t = pose_ramp.At(time_s);
   return t < 1.0 ? q_from.slerp(t, q_to) : q_to;
 }
 
-RigidMass PayloadRack::Item::At(double clock_s) const noexcept {
-  const double share = ShareAt(clock_s);
-  const Quat turn = TurnAt(clock_s);
-  RigidMass out{share * whole.mass_kg, PositionAt(clock_s), share * whole.I_P_B};
+RigidMass PayloadRack::Item::At(double time_s) const noexcept {
+  const double share = ShareAt(time_s);
+  const Quat turn = TurnAt(time_s);
+  RigidMass out{share * whole.mass_kg, PositionAt(time_s), share * whole.I_P_B};
   if (turn.coeffs() == Quat::Identity().coeffs()) return out;
   const Mat3 R = turn.toRotationMatrix();
   out.I_P_B = R * out.I_P_B * R.transpose();
   return out;
 }
 
-bool PayloadRack::Item::IsGone(double clock_s) const noexcept {
-  return share_to == 0.0 && ShareAt(clock_s) == 0.0;
+bool PayloadRack::Item::IsGone(double time_s) const noexcept {
+  return share_to == 0.0 && ShareAt(time_s) == 0.0;
 }
 
 PayloadRack::PayloadRack(const core::ModelParameters& bare_trunk, std::vector<PayloadEvent> events)
     : bare_trunk_(bare_trunk),
       trunk_(bare_trunk),
       events_(std::move(events)),
-      has_begun_(events_.size(), false) {
+      timers_(events_.size()) {
   for (const PayloadEvent& event : events_) {
     SCORIA_DEMAND(event.Problem().empty(), "payload event: {}", event.Problem());
   }
 }
 
-std::vector<TrunkChange> PayloadRack::Update(double clock_s, double walked_m) {
+std::vector<TrunkChange> PayloadRack::Update(const core::EventClock& now) {
+  const double time_s = now.time_s;
   announcements_.clear();
   for (std::size_t i = 0; i < events_.size(); ++i) {
     const PayloadEvent& e = events_[i];
-    const bool is_due = e.at_s ? clock_s > *e.at_s : walked_m > *e.distance_m;
-    if (has_begun_[i] || !is_due) continue;
-    has_begun_[i] = true;
-    announcements_.push_back(Begin(e, e.at_s.value_or(clock_s)));
+    const bool begins =
+        e.at_s ? timers_[i].BeginAfter(*e.at_s, now) : timers_[i].BeginBeyond(*e.distance_m, now);
+    if (begins) announcements_.push_back(Begin(e, *timers_[i].begun_s()));
   }
   std::vector<TrunkChange> changes;
   for (const AttachVelocity velocity : {AttachVelocity::kMatched, AttachVelocity::kRest}) {
     for (Item& item : items_) {
-      if (item.attach_velocity == velocity) item.now = item.At(clock_s);
+      if (item.attach_velocity == velocity) item.now = item.At(time_s);
     }
     const core::ModelParameters trunk = Compose();
     if (trunk == trunk_) continue;
     trunk_ = trunk;
     changes.push_back({trunk, velocity});
   }
-  std::erase_if(items_, [&](const Item& item) { return item.IsGone(clock_s); });
+  std::erase_if(items_, [&](const Item& item) { return item.IsGone(time_s); });
   return changes;
 }
 

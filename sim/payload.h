@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/config/archive.h"
+#include "core/event_clock.h"
 #include "core/robot/payload_body.h"
 #include "core/robot/whole_body.h"
 
@@ -92,11 +93,10 @@ class PayloadRack {
   /// @pre  PayloadProblem(events) is empty, and Problem() of each.
   PayloadRack(const core::ModelParameters& bare_trunk, std::vector<PayloadEvent> events);
 
-  /// Begins events with at_s < clock_s or distance_m < walked_m, and goes on with gradual ones. The
-  /// clock may stand still, but does not go back.
+  /// Begins events whose time has come, and goes on with gradual ones.
   /// @returns the changes to make, in order; none, one, or two if some bodies moved with the trunk
   ///          and some did not.
-  [[nodiscard]] std::vector<TrunkChange> Update(double clock_s, double walked_m);
+  [[nodiscard]] std::vector<TrunkChange> Update(const core::EventClock& now);
 
   /// What each event that began in the last Update does, or why it does nothing.
   [[nodiscard]] const std::vector<std::string>& announcements() const noexcept {
@@ -107,7 +107,7 @@ class PayloadRack {
   /// Runs from 0 to 1.
   struct Ramp {
     double begin_s = 0.0, duration_s = 0.0;
-    [[nodiscard]] double At(double clock_s) const noexcept;
+    [[nodiscard]] double At(double time_s) const noexcept;
   };
   struct Item {
     PayloadParams body;
@@ -118,11 +118,11 @@ class PayloadRack {
     Quat q_from = Quat::Identity(), q_to = Quat::Identity();
     AttachVelocity attach_velocity = AttachVelocity::kMatched;
     RigidMass now;
-    [[nodiscard]] double ShareAt(double clock_s) const noexcept;
-    [[nodiscard]] Vec3 PositionAt(double clock_s) const noexcept;
-    [[nodiscard]] Quat TurnAt(double clock_s) const noexcept;
-    [[nodiscard]] RigidMass At(double clock_s) const noexcept;
-    [[nodiscard]] bool IsGone(double clock_s) const noexcept;
+    [[nodiscard]] double ShareAt(double time_s) const noexcept;
+    [[nodiscard]] Vec3 PositionAt(double time_s) const noexcept;
+    [[nodiscard]] Quat TurnAt(double time_s) const noexcept;
+    [[nodiscard]] RigidMass At(double time_s) const noexcept;
+    [[nodiscard]] bool IsGone(double time_s) const noexcept;
   };
 
   [[nodiscard]] std::string Begin(const PayloadEvent& event, double begin_s);
@@ -133,7 +133,7 @@ class PayloadRack {
 
   core::ModelParameters bare_trunk_, trunk_;
   std::vector<PayloadEvent> events_;
-  std::vector<bool> has_begun_;
+  std::vector<core::EventTimer> timers_;  // of the events
   std::vector<Item> items_;
   std::vector<std::string> announcements_;
 };

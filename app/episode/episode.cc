@@ -54,10 +54,9 @@ void Episode::Attach(EpisodeObserver& observer) {
 void Episode::Step() {
   core::Lap lap(result_.times);
   const double dt = scenario_.physics.step_s;
-  sensed_ =
-      sensors_.Read(world_.truth(), actuation_.motor_tau_Nm(), step_, walking_s_, give_truth_);
+  sensed_ = sensors_.Read(world_.truth(), actuation_.motor_tau_Nm(), step_, clock(), give_truth_);
   command_ = NextCommand();
-  faults_ = solver_faults_.Draw(walking_s_);
+  faults_ = solver_faults_.Draw(clock());
   lap.Book(core::Stage::kSensors);
   retired_.reset();
   const controller::ControlOutput& control = controller_->Step(sensed_, command_, faults_);
@@ -94,13 +93,13 @@ Command Episode::NextCommand() {
 /// What the scenario's timed events change before the physics moves on.
 void Episode::MakeChanges() {
   const double yaw_rad = core::RpyFromRotation(world_.truth().state.R_WB).z();
-  for (const Push& push : pushes_.Update(walking_s_, time_s(), yaw_rad))
-    Announce("push", DescribePush(push));
-  world_.SetTrunkWrench(pushes_.ForceAt(time_s()), Vec3::Zero());
-  for (const sim::TrunkChange& change : payloads_.Update(walking_s_, result_.walked_m))
+  const core::EventClock now = clock();
+  for (const Push& push : pushes_.Update(now, yaw_rad)) Announce("push", DescribePush(push));
+  world_.SetTrunkWrench(pushes_.ForceAt(now), Vec3::Zero());
+  for (const sim::TrunkChange& change : payloads_.Update(now))
     world_.SetTrunkParameters(change.trunk, change.attach_velocity);
   for (const std::string& text : payloads_.announcements()) Announce("payload", text);
-  while (const ControllerChange* change = changes_.Next(walking_s_)) {
+  while (const ControllerChange* change = changes_.Next(now)) {
     controller_->Reconfigure(changes_.in_force());
     Announce("controller_change", DescribeChange(*change));
   }

@@ -41,6 +41,9 @@ class Episode {
   [[nodiscard]] double time_s() const noexcept {
     return static_cast<double>(step_) * scenario_.physics.step_s;
   }
+  [[nodiscard]] core::EventClock clock() const noexcept {
+    return {walking_s_, result_.walked_m, time_s()};
+  }
   /// The last step. @pre there was one.
   [[nodiscard]] StepRecord last() const { return Record(); }
   [[nodiscard]] std::uint64_t state_hash() const noexcept { return result_.state_hash; }

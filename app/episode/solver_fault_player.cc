@@ -7,11 +7,12 @@ namespace scoria::app {
 
 using controller::SolverFault, controller::SolverFaults;
 
-SolverFaults SolverFaultPlayer::Draw(double clock_s) {
+SolverFaults SolverFaultPlayer::Draw(const core::EventClock& now) {
   SolverFaults faults = DrawRandom();
-  for (const SolverOutage& outage : params_.outages) {
-    const double since_s = clock_s - outage.at_s;
-    if (since_s <= 0.0 || since_s > outage.duration_s) continue;
+  for (std::size_t i = 0; i < timers_.size(); ++i) {
+    const SolverOutage& outage = params_.outages[i];
+    timers_[i].BeginAfter(outage.at_s, now);
+    if (!timers_[i].Runs(outage.duration_s, now)) continue;
     (outage.solver == Solver::kMpc ? faults.mpc : faults.wbc) = outage.kind;
   }
   return faults;

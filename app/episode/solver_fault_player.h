@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
 #include "app/scenario/scenario.h"
+#include "core/event_clock.h"
 #include "core/rng.h"
 
 namespace scoria::app {
@@ -10,11 +13,12 @@ namespace scoria::app {
 class SolverFaultPlayer {
  public:
   SolverFaultPlayer(const SolverFaultParams& params, std::uint64_t seed)
-      : params_(params), rng_(seed, 0, core::Stream::kSolverFault) {}
+      : params_(params),
+        timers_(params.outages.size()),
+        rng_(seed, 0, core::Stream::kSolverFault) {}
 
   /// To be called in every step, so that a controller that runs slower meets the same faults.
-  /// @param clock_s on which outages are scheduled.
-  [[nodiscard]] controller::SolverFaults Draw(double clock_s);
+  [[nodiscard]] controller::SolverFaults Draw(const core::EventClock& now);
   void CountInjected(const controller::SolverFaults& faults,
                      const controller::ControlOutput& control);
   [[nodiscard]] const Counters& injected() const noexcept { return injected_; }
@@ -23,6 +27,7 @@ class SolverFaultPlayer {
   [[nodiscard]] controller::SolverFaults DrawRandom();
 
   SolverFaultParams params_;
+  std::vector<core::EventTimer> timers_;  // of the outages
   core::Rng rng_;
   Counters injected_;
 };

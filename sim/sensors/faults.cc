@@ -69,20 +69,20 @@ std::string SensorFault::Problem() const {
 }
 
 FaultSchedule::FaultSchedule(std::vector<SensorFault> faults) : faults_(std::move(faults)) {
-  for (const SensorFault& fault : faults_) states_.push_back({LegsOf(fault)});
+  for (const SensorFault& fault : faults_) states_.push_back({LegsOf(fault), {}});
 }
 
-const FaultEffects& FaultSchedule::Update(double clock_s) noexcept {
+const FaultEffects& FaultSchedule::Update(const core::EventClock& now) noexcept {
   if (faults_.empty()) return effects_;
   effects_ = {};
   for (std::size_t i = 0; i < faults_.size(); ++i) {
     const SensorFault& fault = faults_[i];
     State& state = states_[i];
-    const double since_s = clock_s - fault.at_s;
-    const bool is_on = since_s > 0.0 && (fault.duration_s == 0.0 || since_s <= fault.duration_s);
-    state.begins = is_on && !state.is_on;
-    state.is_on = is_on;
-    if (is_on) Apply(fault, state.legs, since_s);
+    state.begins = state.timer.BeginAfter(fault.at_s, now);
+    const std::optional<double>& begun_s = state.timer.begun_s();
+    const bool to_the_end = fault.duration_s == 0.0;
+    if (begun_s && (to_the_end || state.timer.Runs(fault.duration_s, now)))
+      Apply(fault, state.legs, now.time_s - *begun_s);
   }
   return effects_;
 }

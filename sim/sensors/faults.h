@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/config/archive.h"
+#include "core/event_clock.h"
 #include "core/robot/legs.h"
 
 namespace scoria::sim {
@@ -53,7 +54,8 @@ struct SensorFault {
   template <class Archive>
   void Serialize(Archive& a) {
     a.Required("at_s", at_s, {.min = 0.0, .doc = "since the robot stands"});
-    a.Field("duration_s", duration_s, {.min = 0.0, .max = 1e6, .doc = "0: to the end"});
+    a.Field("duration_s", duration_s,
+            {.min = 0.0, .max = 1e6, .doc = "simulated time; 0: to the end"});
     a.Required("kind", kind);
     a.Field("legs", legs, {.doc = "FL, FR, HL, HR; empty: all"});
     a.Field("magnitude", magnitude,
@@ -99,13 +101,12 @@ struct FaultEffects {
   LegArray<FootFault> feet;
 };
 
-/// Faults on a clock that may stand still, but does not go back.
+/// Faults in their course.
 class FaultSchedule {
  public:
   explicit FaultSchedule(std::vector<SensorFault> faults);
 
-  /// A fault is on where at_s < clock_s <= at_s + duration_s.
-  [[nodiscard]] const FaultEffects& Update(double clock_s) noexcept;
+  [[nodiscard]] const FaultEffects& Update(const core::EventClock& now) noexcept;
 
   [[nodiscard]] const std::vector<SensorFault>& faults() const noexcept { return faults_; }
   /// Whether faults()[i] began in the last Update.
@@ -114,7 +115,8 @@ class FaultSchedule {
  private:
   struct State {
     LegArray<bool> legs;
-    bool is_on = false, begins = false;
+    core::EventTimer timer;
+    bool begins = false;
   };
   void Apply(const SensorFault& fault, const LegArray<bool>& legs, double since_s) noexcept;
   void ApplyToLeg(const SensorFault& fault, Leg leg, double ramped) noexcept;

@@ -31,8 +31,8 @@ void Sensors::Reset() noexcept {
 }
 
 SensorFrame Sensors::Read(const Truth& truth, const LegArray<Vec3>& motor_tau_Nm, std::int64_t step,
-                          double fault_clock_s, bool give_truth) noexcept {
-  const FaultEffects& faults = faults_.Update(fault_clock_s);
+                          const core::EventClock& now, bool give_truth) noexcept {
+  const FaultEffects& faults = faults_.Update(now);
   SensorFrame z;
   z.step = step;
   const Encoders::Sample& joints = encoders_.Read(truth.state, faults.encoders);

@@ -26,12 +26,13 @@ class Sensors {
           std::uint64_t seed);
 
   /// What has arrived by the physics step `step`; to be called in every one.
-  /// @param fault_clock_s  time on which faults are scheduled; it may stand still.
-  /// @param give_truth     fills SensorFrame::truth; only for controllers that run on the `truth`
+  /// @param now         on which faults are scheduled.
+  /// @param give_truth  fills SensorFrame::truth; only for controllers that run on the `truth`
   ///                       estimator.
   /// Errors: none; noexcept, no allocation.
   [[nodiscard]] SensorFrame Read(const Truth& truth, const LegArray<Vec3>& motor_tau_Nm,
-                                 std::int64_t step, double fault_clock_s, bool give_truth) noexcept;
+                                 std::int64_t step, const core::EventClock& now,
+                                 bool give_truth) noexcept;
 
   /// After the robot was placed somewhere: forgets its velocity, samples on their way and tracking.
   /// Biases, gains and faults stay.

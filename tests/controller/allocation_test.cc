@@ -40,8 +40,9 @@ TEST(Controller, StepNeverAllocates) {
     Controller controller(params, robot, 9.81, 0.001);
     long allocations = 0;
     for (int step = 0; step < 2500; ++step) {
+      const double time_s = 0.001 * step;
       const SensorFrame z = sensors.Read(world.truth(), actuation.motor_tau_Nm(), step,
-                                         0.001 * step, NeedsTruth(params));
+                                         {time_s, 0.0, time_s}, NeedsTruth(params));
       Command command;
       if (step > 500) command.v_x_mps = 0.4;
       const ControlOutput* out = nullptr;

@@ -14,6 +14,9 @@
 namespace scoria::sim {
 namespace {
 
+/// A walk without a break.
+core::EventClock At(double time_s, double walked_m) { return {time_s, walked_m, time_s}; }
+
 const Vec3 kGravity(0.0, 0.0, -9.81);
 
 core::ModelParameters BareTrunk() {
@@ -129,7 +132,7 @@ TEST(Payload, MomentumIsConservedWhereTheBodyWasAtRest) {
     PayloadEvent add = AddAt(0.0, Plate());
     add.attach_velocity = AttachVelocity::kRest;
     PayloadRack rack(BareTrunk(), {add});
-    const std::vector<TrunkChange> changes = rack.Update(0.1, 0.0);
+    const std::vector<TrunkChange> changes = rack.Update(At(0.1, 0.0));
     ASSERT_EQ(changes.size(), 1u);
     world.SetTrunkParameters(changes[0].trunk, changes[0].attach_velocity);
     const Truth& after = world.truth();
@@ -153,12 +156,12 @@ TEST(Payload, MatchedBodyBringsAndTakesItsOwnMomentum) {
     s.p_WB.z() = 5.0;
     world.Reset(s);
     const Vec6 bare = Momentum(BareTrunk(), s);
-    world.SetTrunkParameters(rack.Update(0.1, 0.0).at(0).trunk, AttachVelocity::kMatched);
+    world.SetTrunkParameters(rack.Update(At(0.1, 0.0)).at(0).trunk, AttachVelocity::kMatched);
     EXPECT_EQ(world.truth().state, s);
     const Vec6 loaded = Momentum(world.truth().trunk, s), own = Momentum(plate, s);
     EXPECT_LT((loaded - bare - own).head<3>().norm(), 1e-9 * loaded.head<3>().norm()) << trial;
     EXPECT_LT((loaded - bare - own).tail<3>().norm(), 1e-9 * loaded.tail<3>().norm()) << trial;
-    world.SetTrunkParameters(rack.Update(1.1, 0.0).at(0).trunk, AttachVelocity::kMatched);
+    world.SetTrunkParameters(rack.Update(At(1.1, 0.0)).at(0).trunk, AttachVelocity::kMatched);
     EXPECT_EQ(Momentum(world.truth().trunk, world.truth().state), bare);
   }
 }
@@ -195,7 +198,7 @@ TEST(PayloadRack, AddedThenRemovedRestoresTheTrunkBitForBit) {
   const core::ModelParameters before = world.truth().trunk;
   int changes = 0;
   for (int i = 0; i < 8000; ++i) {
-    for (const TrunkChange& change : rack.Update(0.001 * i, 0.0)) {
+    for (const TrunkChange& change : rack.Update(At(0.001 * i, 0.0))) {
       world.SetTrunkParameters(change.trunk, change.attach_velocity);
       ++changes;
     }
@@ -216,17 +219,17 @@ TEST(PayloadRack, GradualEventsRunOnTheClock) {
   PayloadEvent add = AddAt(1.0, Plate());
   add.duration_s = 4.0;
   PayloadRack rack(BareTrunk(), {add});
-  EXPECT_TRUE(rack.Update(1.0, 0.0).empty());
+  EXPECT_TRUE(rack.Update(At(1.0, 0.0)).empty());
   EXPECT_TRUE(rack.announcements().empty());
   const RigidMass plate = ToRigidMass(Plate());
-  EXPECT_TRUE(LoadsWith(Share(0.25, plate), rack.Update(2.0, 0.0)));
+  EXPECT_TRUE(LoadsWith(Share(0.25, plate), rack.Update(At(2.0, 0.0))));
   ASSERT_EQ(rack.announcements().size(), 1u);
   EXPECT_EQ(rack.announcements()[0],
             "payload plate added over 4 s: 5 kg at (0.020, 0.050, 0.090) m");
-  EXPECT_TRUE(rack.Update(2.0, 0.0).empty()) << "the clock stands still";
+  EXPECT_TRUE(rack.Update(At(2.0, 0.0)).empty()) << "no time has gone by";
   EXPECT_TRUE(rack.announcements().empty());
-  EXPECT_TRUE(LoadsWith(plate, rack.Update(5.0, 0.0)));
-  EXPECT_TRUE(rack.Update(9.0, 0.0).empty());
+  EXPECT_TRUE(LoadsWith(plate, rack.Update(At(5.0, 0.0))));
+  EXPECT_TRUE(rack.Update(At(9.0, 0.0)).empty());
 }
 
 TEST(PayloadRack, EventsBeginAtADistance) {
@@ -235,10 +238,10 @@ TEST(PayloadRack, EventsBeginAtADistance) {
   add.distance_m = 3.0;
   add.duration_s = 2.0;
   PayloadRack rack(BareTrunk(), {add});
-  EXPECT_TRUE(rack.Update(50.0, 2.9).empty());
-  EXPECT_TRUE(rack.Update(60.0, 3.1).empty()) << "it begins with nothing";
+  EXPECT_TRUE(rack.Update(At(50.0, 2.9)).empty());
+  EXPECT_TRUE(rack.Update(At(60.0, 3.1)).empty()) << "it begins with nothing";
   EXPECT_EQ(rack.announcements().size(), 1u);
-  EXPECT_TRUE(LoadsWith(Share(0.5, ToRigidMass(Plate())), rack.Update(61.0, 3.2)));
+  EXPECT_TRUE(LoadsWith(Share(0.5, ToRigidMass(Plate())), rack.Update(At(61.0, 3.2))));
 }
 
 TEST(PayloadRack, MovedBodyGoesStraightAndTurns) {
@@ -247,25 +250,25 @@ TEST(PayloadRack, MovedBodyGoesStraightAndTurns) {
   move.rpy_rad = Vec3(0.0, 0.0, 1.2);
   move.duration_s = 2.0;
   PayloadRack rack(BareTrunk(), {AddAt(0.0, Plate()), move});
-  EXPECT_TRUE(LoadsWith(ToRigidMass(Plate()), rack.Update(0.5, 0.0)));
+  EXPECT_TRUE(LoadsWith(ToRigidMass(Plate()), rack.Update(At(0.5, 0.0))));
   PayloadParams half_way = Plate();
   half_way.p_BP_m = {0.02, -0.05, 0.09};
   half_way.rpy_rad = HalfTurn(Plate().rpy_rad, *move.rpy_rad);
-  EXPECT_TRUE(LoadsWith(ToRigidMass(half_way), rack.Update(2.0, 0.0)));
+  EXPECT_TRUE(LoadsWith(ToRigidMass(half_way), rack.Update(At(2.0, 0.0))));
   EXPECT_EQ(rack.announcements().at(0),
             "payload plate moved over 2 s: 5 kg to (0.020, -0.150, 0.090) m");
   PayloadParams there = Plate();
   there.p_BP_m = *move.p_BP_m;
   there.rpy_rad = *move.rpy_rad;
-  EXPECT_TRUE(LoadsWith(ToRigidMass(there), rack.Update(4.0, 0.0)));
+  EXPECT_TRUE(LoadsWith(ToRigidMass(there), rack.Update(At(4.0, 0.0))));
 }
 
 TEST(PayloadRack, ShedBodyKeepsTheRestInItsPlace) {
   PayloadEvent shed = EventAt(1.0, PayloadAction::kShed, "plate");
   shed.share = 0.4;
   PayloadRack rack(BareTrunk(), {AddAt(0.0, Plate()), shed});
-  (void)rack.Update(0.5, 0.0);
-  EXPECT_TRUE(LoadsWith(Share(0.6, ToRigidMass(Plate())), rack.Update(1.5, 0.0)));
+  (void)rack.Update(At(0.5, 0.0));
+  EXPECT_TRUE(LoadsWith(Share(0.6, ToRigidMass(Plate())), rack.Update(At(1.5, 0.0))));
   EXPECT_EQ(rack.announcements().at(0),
             "payload plate loses a part: 2 of 5 kg at (0.020, 0.050, 0.090) m");
 }
@@ -276,7 +279,7 @@ TEST(PayloadRack, MatchedAndRestedBodiesInOneStepAreTwoChanges) {
   PayloadEvent rested = AddAt(1.0, Plate());
   rested.attach_velocity = AttachVelocity::kRest;
   PayloadRack rack(BareTrunk(), {rested, AddAt(1.0, other)});
-  const std::vector<TrunkChange> changes = rack.Update(1.5, 0.0);
+  const std::vector<TrunkChange> changes = rack.Update(At(1.5, 0.0));
   ASSERT_EQ(changes.size(), 2u);
   EXPECT_EQ(changes[0].attach_velocity, AttachVelocity::kMatched);
   EXPECT_EQ(changes[0].trunk, AddBodies(BareTrunk(), std::vector<RigidMass>{ToRigidMass(other)}));
@@ -288,10 +291,10 @@ TEST(PayloadRack, MatchedAndRestedBodiesInOneStepAreTwoChanges) {
 TEST(PayloadRack, EventWithoutItsBodyDoesNothingAndSaysSo) {
   PayloadRack rack(BareTrunk(), {EventAt(1.0, PayloadAction::kRemove, "plate"), AddAt(2.0, Plate()),
                                  AddAt(3.0, Plate())});
-  EXPECT_TRUE(rack.Update(1.5, 0.0).empty());
+  EXPECT_TRUE(rack.Update(At(1.5, 0.0)).empty());
   EXPECT_EQ(rack.announcements().at(0), "payload plate: nothing to remove, it is not on the trunk");
-  EXPECT_EQ(rack.Update(2.5, 0.0).size(), 1u);
-  EXPECT_TRUE(rack.Update(3.5, 0.0).empty());
+  EXPECT_EQ(rack.Update(At(2.5, 0.0)).size(), 1u);
+  EXPECT_TRUE(rack.Update(At(3.5, 0.0)).empty());
   EXPECT_EQ(rack.announcements().at(0), "payload plate not added: it is on the trunk");
 }
 
@@ -387,7 +390,7 @@ TEST(World, StandsUnderAPlateThatIsPutOnItsBack) {
   PayloadRack rack(BareTrunk(), {add});
   double worst_J = 0.0;
   for (int i = 0; i < 4000; ++i) {
-    for (const TrunkChange& change : rack.Update(0.001 * i, 0.0))
+    for (const TrunkChange& change : rack.Update(At(0.001 * i, 0.0)))
       world.SetTrunkParameters(change.trunk, change.attach_velocity);
     world.Step(Hold(world.truth().state, start.q));
     worst_J = std::max(worst_J, std::abs(world.truth().energy.Error_J()));

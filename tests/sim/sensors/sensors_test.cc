@@ -15,6 +15,9 @@
 namespace scoria::sim {
 namespace {
 
+/// A walk without a break.
+core::EventClock At(double time_s) { return {time_s, 0.0, time_s}; }
+
 constexpr double kStep_s = 1e-3;
 const Vec3 kGravity_W(0.0, 0.0, -9.81);
 
@@ -46,7 +49,7 @@ SensorFrame ReadFor(Sensors& sensors, const Truth& truth, int steps, std::int64_
   SensorFrame z;
   for (int i = 0; i < steps; ++i) {
     const std::int64_t k = first + i;
-    z = sensors.Read(truth, Torques(), k, static_cast<double>(k + 1) * kStep_s, false);
+    z = sensors.Read(truth, Torques(), k, At(static_cast<double>(k + 1) * kStep_s), false);
   }
   return z;
 }
@@ -86,7 +89,7 @@ TEST(IdealSensors, ReadTheTruthOfEveryStep) {
     Truth truth;
     truth.state = test::RandomState(rng);
     for (double& f : truth.f_normal_N) f = rng.NextUniform(0.0, 100.0);
-    const SensorFrame z = sensors.Read(truth, Torques(), k, 0.0, true);
+    const SensorFrame z = sensors.Read(truth, Torques(), k, At(0.0), true);
     const RobotState& s = truth.state;
     const Vec3 v_WS = s.v_WB + s.w_WB.cross(s.R_WB * robot.p_BS);
     const bool is_first = k == 0 || k == 10;
@@ -189,7 +192,7 @@ TEST(Imu, AtRestReadsGravityUpwards) {
   const Truth truth = Standing();
   Vec3 mean_B = Vec3::Zero();
   for (int k = 0; k < 1000; ++k)
-    mean_B += test::Go2().R_BS * sensors.Read(truth, Torques(), k, 0.0, false).a_WS_S / 1000.0;
+    mean_B += test::Go2().R_BS * sensors.Read(truth, Torques(), k, At(0.0), false).a_WS_S / 1000.0;
   EXPECT_LT((mean_B + kGravity_W).cwiseAbs().maxCoeff(), 4.0 * 0.03 + 4e-3 * 9.81);
   EXPECT_GT((mean_B + kGravity_W).norm(), 0.0);
 }
@@ -467,7 +470,7 @@ TEST(SensorFaults, LostSamplesLeaveTheStampBehind) {
   int lost = 0;
   constexpr int kSteps = 5000;
   for (int k = 0; k < kSteps; ++k) {
-    const SensorFrame z = sensors.Read(Standing(), Torques(), k, 1.0 + k * kStep_s, false);
+    const SensorFrame z = sensors.Read(Standing(), Torques(), k, At(1.0 + k * kStep_s), false);
     lost += z.imu_time_s != static_cast<double>(k) * kStep_s ? 1 : 0;
   }
   EXPECT_NEAR(lost, 0.3 * kSteps, 4.0 * std::sqrt(0.21 * kSteps));
@@ -492,7 +495,7 @@ TEST(SensorFaults, LastTheirTimeAndSayWhenTheyBegin) {
   Sensors sensors = MakeSensors(IdealSensors{}, {fault});
   std::vector<int> begun, dead;
   for (int k = 0; k < 30; ++k) {
-    const SensorFrame z = sensors.Read(Standing(), Torques(), k, k * kStep_s, false);
+    const SensorFrame z = sensors.Read(Standing(), Torques(), k, At(k * kStep_s), false);
     if (sensors.HasBegun(0)) begun.push_back(k);
     if (z.tau_Nm[Leg::kFL].isZero()) dead.push_back(k);
   }
@@ -524,7 +527,7 @@ std::vector<SensorFrame> Record(const HonestSensors& params, const std::vector<S
     Truth truth = Standing();
     truth.state = test::RandomState(rng);
     for (double& f : truth.f_normal_N) f = rng.NextUniform(0.0, 100.0);
-    frames.push_back(sensors.Read(truth, Torques(), k, k * kStep_s, false));
+    frames.push_back(sensors.Read(truth, Torques(), k, At(k * kStep_s), false));
   }
   return frames;
 }
@@ -594,7 +597,7 @@ TEST(Sensors, ResetKeepsTheTurnOnAndForgetsTheMotion) {
   Truth moving = Standing();
   moving.state.v_WB = {1.0, 2.0, 3.0};
   moving.state.q[Leg::kFL].y() += 0.3;
-  (void)sensors.Read(moving, ZeroPerLeg(), 7, 0.0, false);
+  (void)sensors.Read(moving, ZeroPerLeg(), 7, At(0.0), false);
   sensors.Reset();
   const SensorFrame after = ReadFor(sensors, Standing(), 1);
   EXPECT_EQ(after.a_WS_S, before.a_WS_S);
