@@ -33,35 +33,6 @@ std::size_t CentredBin(double bins_from_zero) {
 
 }  // namespace
 
-void DelayHistogram::Add(double delay_s) noexcept {
-  constexpr double kMiddle = static_cast<double>(kBins / 2);
-  const double bin =
-      std::clamp(std::round(delay_s / kBin_s) + kMiddle, 0.0, static_cast<double>(kBins - 1));
-  ++bins.counts[static_cast<std::size_t>(bin)];
-}
-
-double DelayHistogram::Quantile(double share) const noexcept {
-  const std::uint64_t total = count();
-  if (total == 0) return 0.0;
-  const auto rank = static_cast<std::uint64_t>(share * static_cast<double>(total - 1));
-  std::uint64_t below = 0;
-  std::size_t bin = 0;
-  while (below + bins.counts[bin] <= rank) below += bins.counts[bin++];
-  return (static_cast<double>(bin) - static_cast<double>(kBins / 2)) * kBin_s;
-}
-
-DelayHistogram& DelayHistogram::operator+=(const DelayHistogram& other) noexcept {
-  bins += other.bins;
-  return *this;
-}
-
-EdgeQuality& EdgeQuality::operator+=(const EdgeQuality& other) noexcept {
-  delays += other.delays;
-  missed += other.missed;
-  false_alarms += other.false_alarms;
-  return *this;
-}
-
 double ContactQuality::Accuracy() const noexcept {
   return Share(stance_right + swing_right, stance_rows + swing_rows);
 }
@@ -144,41 +115,6 @@ ContactMetrics& ContactMetrics::operator+=(const ContactMetrics& other) noexcept
   return *this;
 }
 
-void EdgeMatcher::Update(const Instant& now, EdgeQuality& quality) noexcept {
-  const bool rises = started_ && now.word && !word_;
-  const bool falls = started_ && !now.word && word_;
-  const bool touches = started_ && now.on && !on_;
-  const bool lifts = started_ && !now.on && on_;
-  if (lifts) {
-    if (waiting_) ++quality.missed;
-    waiting_ = rose_ = false;
-    swing_seen_ = true;
-  }
-  if (rises) {
-    rose_ = true;
-    rose_near_ = now.near_on;
-    rise_s_ = now.time_s;
-    if (waiting_) quality.delays.Add(now.time_s - touchdown_s_);
-    waiting_ = false;
-  }
-  if (touches) {
-    touchdown_s_ = now.time_s;
-    waiting_ = !now.word;
-    if (now.word && rose_) {
-      quality.delays.Add(rise_s_ - now.time_s);
-    } else if (now.word && swing_seen_) {
-      ++quality.missed;  // it never noticed the swing
-    }
-  }
-  if (falls && !now.on && rose_) {
-    if (!rose_near_) ++quality.false_alarms;
-    rose_ = false;
-  }
-  started_ = true;
-  on_ = now.on;
-  word_ = now.word;
-}
-
 void ContactAccumulator::Break() noexcept {
   window_.clear();
   first_ = judged_ = 0;
@@ -190,24 +126,33 @@ void ContactAccumulator::Break() noexcept {
   healthy_.fill(true);
 }
 
-void ContactAccumulator::CountSources(const logs::LogRow& row) noexcept {
+void ContactAccumulator::CountSources(const logs::ContactsRow& contacts) noexcept {
   for (std::size_t leg = 0; leg < 4; ++leg) {
     ++metrics_.leg_rows;
-    ++metrics_.counted_from[std::min<std::size_t>(row.contact_source[leg], 3)];
-    const bool healthy = row.sensor_healthy[leg];
+    if (contacts.source) ++metrics_.counted_from[std::min<std::size_t>((*contacts.source)[leg], 3)];
+    const bool healthy = !contacts.sensor || contacts.sensor->healthy[leg];
     if (!healthy) ++metrics_.distrusted_rows;
     if (!healthy && healthy_[leg]) ++metrics_.distrusted_times;
     healthy_[leg] = healthy;
   }
 }
 
-void ContactAccumulator::AddRow(const logs::LogRow& row) {
-  CountSources(row);
-  window_.push_back({row.time_s,
-                     row.true_contact,
-                     {row.contact, row.contact_sensor, row.contact_observer, row.planned_stance},
-                     row.sensor_counts,
-                     row.observer_probability});
+void ContactAccumulator::AddRow(const logs::Row& row) {
+  if (!row.true_contacts || !row.contacts) return;
+  CountSources(*row.contacts);
+  Sample& sample = window_.emplace_back();
+  sample.time_s = row.time_s;
+  sample.truth = row.true_contacts->contact;
+  sample.words[static_cast<std::size_t>(ContactWord::kCounted)] = row.contacts->contact;
+  if (const auto& sensor = row.contacts->sensor) {
+    sample.words[static_cast<std::size_t>(ContactWord::kSensor)] = sensor->contact;
+    sample.sensor_counts = sensor->counts;
+  }
+  if (const auto& observer = row.contacts->observer) {
+    sample.words[static_cast<std::size_t>(ContactWord::kObserver)] = observer->contact;
+    sample.observer_probability = observer->probability;
+  }
+  if (row.plan) sample.words[static_cast<std::size_t>(ContactWord::kPlan)] = row.plan->stance;
   while (window_[judged_].time_s + kReach_s - kSameInstant_s <= row.time_s) JudgeNext();
 }
 
@@ -250,8 +195,9 @@ void ContactAccumulator::Judge(std::size_t leg) noexcept {
   if (any_contact != any_swing) JudgeSteady(leg);
   const Sample& now = window_[judged_];
   for (std::size_t k = 0; k < kNumContactWords; ++k) {
+    if (!now.words[k]) continue;
     ContactQuality& q = metrics_.words[k];
-    const bool word = now.words[k][leg], on = debounced_[leg];
+    const bool word = (*now.words[k])[leg], on = debounced_[leg];
     q.spoke = q.spoke || word;
     q.differed = q.differed || word != now.truth[leg];
     matchers_[leg].touchdown[k].Update({now.time_s, on, any_contact, word}, q.touchdown);
@@ -264,15 +210,17 @@ void ContactAccumulator::JudgeSteady(std::size_t leg) noexcept {
   const Sample& now = window_[judged_];
   const bool stance = now.truth[leg];
   for (std::size_t k = 0; k < kNumContactWords; ++k) {
+    if (!now.words[k]) continue;
     ContactQuality& q = metrics_.words[k];
     ++(stance ? q.stance_rows : q.swing_rows);
-    if (now.words[k][leg] == stance) ++(stance ? q.stance_right : q.swing_right);
+    if ((*now.words[k])[leg] == stance) ++(stance ? q.stance_right : q.swing_right);
   }
   const auto add = [stance](Evidence& e, std::size_t bin) {
     ++(stance ? e.stance : e.swing).counts[bin];
   };
-  add(metrics_.sensor, Evidence::BinOfCounts(now.sensor_counts[leg]));
-  add(metrics_.observer, Evidence::BinOfProbability(now.observer_probability[leg]));
+  if (now.sensor_counts) add(metrics_.sensor, Evidence::BinOfCounts((*now.sensor_counts)[leg]));
+  if (now.observer_probability)
+    add(metrics_.observer, Evidence::BinOfProbability((*now.observer_probability)[leg]));
 }
 
 /// One line of "bin:count" words without the empty bins, so that a result stays readable.

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "analysis/signals/contact_edges.h"
 #include "analysis/statistics/histogram.h"
 #include "logs/row.h"
 
@@ -23,31 +25,6 @@ constexpr std::array<std::pair<ContactWord, std::string_view>, kNumContactWords>
            {ContactWord::kObserver, "observer"},
            {ContactWord::kPlan, "gait_plan"}}};
 }
-
-/// Delays on the grid of the rows, negative when early; beyond ±0.25 s they count at the end.
-class DelayHistogram {
- public:
-  static constexpr double kBin_s = 0.002;
-  static constexpr std::size_t kBins = 251;
-
-  void Add(double delay_s) noexcept;
-  /// @param share in [0, 1]. @returns 0 without delays.
-  [[nodiscard]] double Quantile(double share) const noexcept;
-  [[nodiscard]] std::uint64_t count() const noexcept { return bins.Total(); }
-  DelayHistogram& operator+=(const DelayHistogram& other) noexcept;
-  bool operator==(const DelayHistogram&) const = default;
-
-  BinCounts<kBins> bins;
-};
-
-/// How one kind of edge, touchdown or lift-off, was reported.
-struct EdgeQuality {
-  DelayHistogram delays;  // reported minus true
-  std::uint64_t missed = 0, false_alarms = 0;
-  [[nodiscard]] std::uint64_t true_edges() const noexcept { return delays.count() + missed; }
-  EdgeQuality& operator+=(const EdgeQuality& other) noexcept;
-  bool operator==(const EdgeQuality&) const = default;
-};
 
 /// One source's word against the truth, all legs together.
 struct ContactQuality {
@@ -103,38 +80,12 @@ struct ContactMetrics {
   bool operator==(const ContactMetrics&) const = default;
 };
 
-/// Matches a source's edges with the true ones, one leg and one kind of edge. Written for
-/// touchdowns; lift-offs are the touchdowns of the inverted signals.
-///   touchdown seen:  the source says contact at the true touchdown, since a moment in this swing
-///                    (early), or begins to say so before the foot lifts off (late)
-///   missed:          neither
-///   false:           the source says contact and takes it back within one true swing, unless the
-///                    foot truly touched within 15 ms of it
-class EdgeMatcher {
- public:
-  struct Instant {
-    double time_s = 0.0;
-    bool on = false;       // truth, without runs below 10 ms
-    bool near_on = false;  // truth with them, anywhere within 15 ms
-    bool word = false;
-  };
-  void Update(const Instant& now, EdgeQuality& quality) noexcept;
-  void Reset() noexcept { *this = {}; }
-
- private:
-  bool started_ = false, on_ = false, word_ = false;
-  bool swing_seen_ = false;  // from its beginning
-  bool rose_ = false;        // in this swing
-  bool rose_near_ = false;   // the foot's true touch
-  bool waiting_ = false;     // for the word, since the true touchdown
-  double rise_s_ = 0.0, touchdown_s_ = 0.0;
-};
-
 /// Accumulates rows of any rate while the walking controller is in charge. Looks 15 ms back and
 /// ahead, so the first and last 15 ms of a stretch are not judged.
 class ContactAccumulator {
  public:
-  void AddRow(const logs::LogRow& row);
+  /// Rows without true or estimated contacts are left out.
+  void AddRow(const logs::Row& row);
   /// Rows before and after belong to different stretches.
   void Break() noexcept;
   [[nodiscard]] const ContactMetrics& metrics() const noexcept { return metrics_; }
@@ -142,16 +93,16 @@ class ContactAccumulator {
  private:
   struct Sample {
     double time_s = 0.0;
-    std::array<bool, 4> truth{};
-    std::array<std::array<bool, 4>, kNumContactWords> words{};
-    std::array<double, 4> sensor_counts{}, observer_probability{};
+    logs::PerLeg<bool> truth{};
+    std::array<std::optional<logs::PerLeg<bool>>, kNumContactWords> words{};
+    std::optional<logs::PerLeg<double>> sensor_counts, observer_probability;
   };
   struct LegMatchers {
     std::array<EdgeMatcher, kNumContactWords> touchdown, liftoff;
   };
   void JudgeNext() noexcept;
   void Compact() noexcept;
-  void CountSources(const logs::LogRow& row) noexcept;
+  void CountSources(const logs::ContactsRow& contacts) noexcept;
   void Judge(std::size_t leg) noexcept;
   void JudgeSteady(std::size_t leg) noexcept;
   void UpdateDebounced(std::size_t leg) noexcept;

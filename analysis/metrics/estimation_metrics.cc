@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <Eigen/Cholesky>
 #include <nlohmann/json.hpp>
 
 #include "core/math/so3.h"
@@ -60,21 +61,31 @@ double MedianMagnitude(const std::vector<DriftSegment>& segments, Get get) {
 
 }  // namespace
 
-bool HasEstimate(const logs::LogRow& row) noexcept {
-  const auto any = [](const std::array<double, 3>& a) {
-    return a[0] != 0.0 || a[1] != 0.0 || a[2] != 0.0;
-  };
-  return any(row.est_p_WB_m) || any(row.est_v_WB_mps) || any(row.est_rpy_rad);
+std::optional<double> HeightDrift(const logs::Row& row) noexcept {
+  if (!row.truth || !row.estimate) return std::nullopt;
+  return row.estimate->p_WB_m[2] - row.truth->p_WB_m[2];
 }
 
-double HeightDrift(const logs::LogRow& row) noexcept {
-  return HasEstimate(row) ? row.est_p_WB_m[2] - row.p_WB_m[2] : 0.0;
+std::optional<Vec3> FromEstimatorFrame(const logs::Row& row, const Vec3& p_W_est) noexcept {
+  if (!row.truth || !row.estimate) return std::nullopt;
+  const double yaw_drift_rad = row.estimate->rpy_rad[2] - row.truth->rpy_rad[2];
+  return ToVec3(row.truth->p_WB_m) +
+         core::RotationZ(-yaw_drift_rad) * (p_W_est - ToVec3(row.estimate->p_WB_m));
 }
 
-Vec3 FromEstimatorFrame(const logs::LogRow& row, const Vec3& p_W_est) noexcept {
-  if (!HasEstimate(row)) return p_W_est;
-  const double yaw_drift_rad = row.est_rpy_rad[2] - row.rpy_rad[2];
-  return ToVec3(row.p_WB_m) + core::RotationZ(-yaw_drift_rad) * (p_W_est - ToVec3(row.est_p_WB_m));
+std::optional<double> CalcNees(const logs::Row& row) {
+  if (!row.truth || !row.estimate || !row.estimate->P_tilt_v) return std::nullopt;
+  const Mat3 R_error = core::RotationFromRpy(ToVec3(row.estimate->rpy_rad)) *
+                       core::RotationFromRpy(ToVec3(row.truth->rpy_rad)).transpose();
+  Eigen::Matrix<double, 5, 1> error;
+  error << core::LogSo3(R_error).head<2>(),
+      ToVec3(row.estimate->v_WB_mps) - R_error * ToVec3(row.truth->v_WB_mps);
+  Eigen::Matrix<double, 5, 5> P = Eigen::Matrix<double, 5, 5>::Zero();  // its lower triangle
+  auto entry = row.estimate->P_tilt_v->begin();
+  for (int i = 0; i < P.rows(); ++i) {
+    for (int j = 0; j <= i; ++j) P(i, j) = *entry++;
+  }
+  return error.dot(P.ldlt().solve(error));
 }
 
 RelativePoseError& RelativePoseError::operator+=(const RelativePoseError& other) noexcept {
@@ -201,53 +212,56 @@ double EstimationAccumulator::MeanSquare::Root() const noexcept {
   return count == 0 ? 0.0 : std::sqrt(sum / static_cast<double>(count));
 }
 
-void EstimationAccumulator::AddRow(const logs::LogRow& row) {
-  const bool walking = row.operating && !row.fallen;
-  if (walking_ && (!walking || row.segment != segment_)) {
-    drift_.End(row.fallen);
+void EstimationAccumulator::AddRow(const logs::Row& row) {
+  if (!row.episode) return;
+  const bool walking = row.episode->operating && !row.episode->fallen;
+  if (walking_ && (!walking || row.episode->segment != segment_)) {
+    drift_.End(row.episode->fallen);
     contact_.Break();
   }
   walking_ = walking;
-  segment_ = row.segment;
+  segment_ = row.episode->segment;
   if (!walking) return;
   contact_.AddRow(row);
-  AddForces(row);
-  if (!HasEstimate(row)) return;
-  drift_.Add({ToVec3(row.p_WB_m), ToVec3(row.est_p_WB_m), row.rpy_rad[2], row.est_rpy_rad[2]});
-  AddErrors(row);
+  if (row.true_contacts && row.contacts && row.contacts->f_F_W_N)
+    AddForces(*row.true_contacts, *row.contacts->f_F_W_N);
   AddConsistency(row);
+  if (row.truth && row.estimate) AddErrors(*row.truth, *row.estimate);
 }
 
-void EstimationAccumulator::AddErrors(const logs::LogRow& row) noexcept {
+void EstimationAccumulator::AddErrors(const logs::TruthRow& truth,
+                                      const logs::EstimateRow& estimate) noexcept {
+  drift_.Add(
+      {ToVec3(truth.p_WB_m), ToVec3(estimate.p_WB_m), truth.rpy_rad[2], estimate.rpy_rad[2]});
   const Vec3 v_true_B =
-      core::RotationFromRpy(ToVec3(row.rpy_rad)).transpose() * ToVec3(row.v_WB_mps);
+      core::RotationFromRpy(ToVec3(truth.rpy_rad)).transpose() * ToVec3(truth.v_WB_mps);
   const Vec3 v_est_B =
-      core::RotationFromRpy(ToVec3(row.est_rpy_rad)).transpose() * ToVec3(row.est_v_WB_mps);
+      core::RotationFromRpy(ToVec3(estimate.rpy_rad)).transpose() * ToVec3(estimate.v_WB_mps);
   velocity_.Add((v_est_B - v_true_B).norm());
-  roll_.Add(core::WrapToPi(row.est_rpy_rad[0] - row.rpy_rad[0]));
-  pitch_.Add(core::WrapToPi(row.est_rpy_rad[1] - row.rpy_rad[1]));
+  roll_.Add(core::WrapToPi(estimate.rpy_rad[0] - truth.rpy_rad[0]));
+  pitch_.Add(core::WrapToPi(estimate.rpy_rad[1] - truth.rpy_rad[1]));
   constexpr double kSame_m = 1e-6;
-  if ((ToVec3(row.est_p_WB_m) - ToVec3(row.p_WB_m)).norm() > kSame_m) present_ = true;
+  if ((ToVec3(estimate.p_WB_m) - ToVec3(truth.p_WB_m)).norm() > kSame_m) present_ = true;
 }
 
-void EstimationAccumulator::AddConsistency(const logs::LogRow& row) noexcept {
-  if (row.nees > 0.0) {
+void EstimationAccumulator::AddConsistency(const logs::Row& row) noexcept {
+  if (const std::optional<double> nees = CalcNees(row)) {
     present_ = true;
-    sum_nees_ += row.nees;
+    sum_nees_ += *nees;
     ++nees_rows_;
   }
-  if (row.nis_dof > 0) {
-    sum_nis_ += row.nis;
-    nis_dof_ += row.nis_dof;
+  if (row.estimate && row.estimate->innovation) {
+    sum_nis_ += row.estimate->innovation->nis;
+    nis_dof_ += row.estimate->innovation->dof;
     ++nis_rows_;
   }
 }
 
-void EstimationAccumulator::AddForces(const logs::LogRow& row) noexcept {
+void EstimationAccumulator::AddForces(const logs::TrueContactsRow& truth,
+                                      const logs::Array12& f_F_W_N) noexcept {
   for (std::size_t leg = 0; leg < 4; ++leg) {
-    const double est_N = row.est_f_F_W_N[3 * leg + 2];
-    has_forces_ = has_forces_ || est_N != 0.0;
-    (row.true_contact[leg] ? force_stance_ : force_swing_).Add(est_N - row.f_F_W_N[3 * leg + 2]);
+    const std::size_t z = 3 * leg + 2;
+    (truth.contact[leg] ? force_stance_ : force_swing_).Add(f_F_W_N[z] - truth.f_F_W_N[z]);
   }
 }
 
@@ -268,12 +282,10 @@ EstimationMetrics EstimationAccumulator::Finish() {
   m.nis_rows = nis_rows_;
   m.nis_dof = nis_dof_;
   if (nis_dof_ > 0) m.nis_ratio = sum_nis_ / static_cast<double>(nis_dof_);
-  if (has_forces_) {
-    m.force_stance_rmse_N = force_stance_.Root();
-    m.force_swing_rmse_N = force_swing_.Root();
-    m.force_stance_rows = force_stance_.count;
-    m.force_swing_rows = force_swing_.count;
-  }
+  m.force_stance_rmse_N = force_stance_.Root();
+  m.force_swing_rmse_N = force_swing_.Root();
+  m.force_stance_rows = force_stance_.count;
+  m.force_swing_rows = force_swing_.count;
   m.contact = contact_.metrics();
   return m;
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -13,16 +14,19 @@
 
 namespace scoria::analysis {
 
-/// False for rows of a log without an estimate.
-[[nodiscard]] bool HasEstimate(const logs::LogRow& row) noexcept;
-
 /// Estimated minus true height of the trunk, m: what to add to a true height before it is compared
-/// with a reference in the estimator's frame. 0 without an estimate.
-[[nodiscard]] double HeightDrift(const logs::LogRow& row) noexcept;
+/// with a reference in the estimator's frame. None without estimate or truth.
+[[nodiscard]] std::optional<double> HeightDrift(const logs::Row& row) noexcept;
 
 /// A point that the controller named in the estimator's frame, where it truly meant it: as seen
-/// from the trunk.
-[[nodiscard]] Vec3 FromEstimatorFrame(const logs::LogRow& row, const Vec3& p_W_est) noexcept;
+/// from the trunk. None without estimate or truth.
+[[nodiscard]] std::optional<Vec3> FromEstimatorFrame(const logs::Row& row,
+                                                     const Vec3& p_W_est) noexcept;
+
+/// Normalised estimation error squared of tilt and velocity, χ² of 5 degrees of freedom for a
+/// consistent filter. The velocity's error is right-invariant, so it is that of the body velocity,
+/// turned into W. None without truth or a covariance.
+[[nodiscard]] std::optional<double> CalcNees(const logs::Row& row);
 
 /// What the estimate lost over one stretch of walking between placements and falls, with the
 /// start's offset of place and yaw removed. Errors are estimated minus true.
@@ -126,7 +130,7 @@ class DriftTracker {
 /// of placements.
 class EstimationAccumulator {
  public:
-  void AddRow(const logs::LogRow& row);
+  void AddRow(const logs::Row& row);
   /// Ends the open segment.
   [[nodiscard]] EstimationMetrics Finish();
 
@@ -137,13 +141,13 @@ class EstimationAccumulator {
     void Add(double error) noexcept;
     [[nodiscard]] double Root() const noexcept;
   };
-  void AddErrors(const logs::LogRow& row) noexcept;
-  void AddConsistency(const logs::LogRow& row) noexcept;
-  void AddForces(const logs::LogRow& row) noexcept;
+  void AddErrors(const logs::TruthRow& truth, const logs::EstimateRow& estimate) noexcept;
+  void AddConsistency(const logs::Row& row) noexcept;
+  void AddForces(const logs::TrueContactsRow& truth, const logs::Array12& f_F_W_N) noexcept;
 
   bool walking_ = false;
   std::uint32_t segment_ = 0;
-  bool present_ = false, has_forces_ = false;
+  bool present_ = false;
   DriftTracker drift_;
   ContactAccumulator contact_;
   MeanSquare velocity_, roll_, pitch_, force_stance_, force_swing_;

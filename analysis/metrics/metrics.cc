@@ -9,37 +9,20 @@
 namespace scoria::analysis {
 namespace {
 
-constexpr double kChord_s = 0.5;
-constexpr double kWindow_s = 5.0;
-constexpr double kSettle_s = 3.0;      // after the command changed, a placement or a fallback
 constexpr double kBeforeFall_s = 1.0;  // the tumble is no steady walking
-// A command that differs by less than this and this share of the speed is the same: steering along
-// a route.
-constexpr double kSameCommand_mps = 0.05, kSameShare = 0.15;
-constexpr double kStride_s = 0.5;  // averaging time where the log names no period
+constexpr double kStride_s = 0.5;      // averaging time where the log names no period
 
-double CommandSpeed(const logs::LogRow& row) {
-  return std::hypot(row.cmd_v_x_mps, row.cmd_v_y_mps);
+Vec2 HorizontalPlace(const logs::Row& row) { return {row.truth->p_WB_m[0], row.truth->p_WB_m[1]}; }
+
+bool OnFallback(const logs::Row& row) {
+  if (!row.supervision) return false;
+  const auto& on = row.supervision->fallen_back;
+  return std::find(on.begin(), on.end(), true) != on.end();
 }
 
-bool IsStop(const logs::LogRow& row) {
-  return row.cmd_v_x_mps == 0.0 && row.cmd_v_y_mps == 0.0 && row.cmd_w_z_radps == 0.0;
-}
-
-double SpeedMargin(double speed_mps) { return kSameCommand_mps + kSameShare * speed_mps; }
-
-bool OnFallback(const logs::LogRow& row) {
-  return std::any_of(row.fallen_back.begin(), row.fallen_back.end(), [](bool on) { return on; });
-}
-
-/// Against the command at the start of the steady stretch, so that slow drifts count too; the small
-/// corrections of somebody who steers along a route do not.
-bool SameCommand(const logs::LogRow& a, const logs::LogRow& b) {
-  constexpr double kSameYaw_radps = 0.6;
-  const double margin_mps = SpeedMargin(std::max(CommandSpeed(a), CommandSpeed(b)));
-  return std::abs(a.cmd_v_x_mps - b.cmd_v_x_mps) < margin_mps &&
-         std::abs(a.cmd_v_y_mps - b.cmd_v_y_mps) < margin_mps &&
-         std::abs(a.cmd_w_z_radps - b.cmd_w_z_radps) < kSameYaw_radps && IsStop(a) == IsStop(b);
+/// What the numbers of walking need.
+bool IsWhole(const logs::Row& row) {
+  return row.truth && row.true_mass && row.energy && row.command && row.reference;
 }
 
 }  // namespace
@@ -67,55 +50,51 @@ TimeQuantiles TimeHistogram::Summarise() const {
   return q;
 }
 
-MetricsAccumulator::Mark MetricsAccumulator::MarkOf(const logs::LogRow& row) {
-  return {row.time_s,
-          row.p_WB_m[0],
-          row.p_WB_m[1],
-          {row.mech_abs_J, row.mech_pos_J, row.electrical_J, row.battery_J}};
+Energy MetricsAccumulator::EnergyOf(const logs::Row& row) {
+  const logs::EnergyRow& e = *row.energy;
+  return {e.mech_abs_J, e.mech_pos_J, e.electrical_J, e.battery_J};
 }
 
-void MetricsAccumulator::StartStretch(const logs::LogRow& row) {
+void MetricsAccumulator::StartStretch(const logs::Row& row) {
   in_stretch_ = true;
-  segment_ = row.segment;
-  chord_ = MarkOf(row);
+  segment_ = row.episode->segment;
+  path_.Add({0.0, HorizontalPlace(row)});
+  chord_start_s_ = row.time_s;
   chord_mass_kgs_ = 0.0;
   last_window_s_ = -1.0;
-  StartSteady(row);
+  command_.Restart();
   previous_ = row;
 }
 
-void MetricsAccumulator::StartSteady(const logs::LogRow& row) {
-  steady_ = row;
-  stride_.clear();
-  stride_head_ = 0;
-  standing_ = false;
-  settled_s_ = row.time_s + kSettle_s;
+void MetricsAccumulator::StartSteady(const logs::Row& row) {
+  stride_.Reset();
+  stand_W_.reset();
+  windows_.Restart(row.time_s);
   StartWindow(row);
 }
 
-void MetricsAccumulator::StartWindow(const logs::LogRow& row) {
-  window_ = MarkOf(row);
-  window_distance_m_ = window_transport_J_ = window_command_m_ = 0.0;
+void MetricsAccumulator::StartWindow(const logs::Row& row) {
+  window_energy_ = EnergyOf(row);
+  window_transport_J_ = 0.0;
 }
 
 /// Counts the open chord, where a fall or the end of the log cuts it short.
 void MetricsAccumulator::EndStretch() {
   if (!in_stretch_) return;
   in_stretch_ = false;
-  CloseChord(previous_);
+  AddChord(path_.CloseChord(HorizontalPlace(previous_)), previous_);
 }
 
-/// The mass that was carried over the chord is its mean over time.
-void MetricsAccumulator::CloseChord(const logs::LogRow& row) {
-  const double chord_m = std::hypot(row.p_WB_m[0] - chord_.x_m, row.p_WB_m[1] - chord_.y_m);
-  const double elapsed_s = row.time_s - chord_.time_s;
-  const double mass_kg = elapsed_s > 0.0 ? chord_mass_kgs_ / elapsed_s : row.total_mass_kg;
+/// The mass that was carried over a chord that ends is its mean over time.
+void MetricsAccumulator::AddChord(double chord_m, const logs::Row& row) {
+  const double elapsed_s = row.time_s - chord_start_s_;
+  const double mass_kg = elapsed_s > 0.0 ? chord_mass_kgs_ / elapsed_s : row.true_mass->mass_kg;
   const double transport_J = mass_kg * gravity_mps2_ * chord_m;
   metrics_.distance_m += chord_m;
   metrics_.transport_J += transport_J;
-  window_distance_m_ += chord_m;
+  windows_.AddWay(chord_m);
   window_transport_J_ += transport_J;
-  chord_ = MarkOf(row);
+  chord_start_s_ = row.time_s;
   chord_mass_kgs_ = 0.0;
 }
 
@@ -127,125 +106,118 @@ void MetricsAccumulator::DropWindowBefore(double fall_s) {
 
 /// Adds what the ledger says at the end of a stretch between placements.
 void MetricsAccumulator::CloseBudget() {
-  if (!has_rows_) return;
+  if (!ledger_) return;
   EnergyBudget& b = metrics_.budget;
-  const double stored_J = last_.kinetic_J + last_.potential_J - last_.initial_J;
+  const double stored_J = ledger_->kinetic_J + ledger_->potential_J - ledger_->initial_J;
   const double works_J =
-      last_.work_motor_J + last_.work_joint_J + last_.work_contact_J + last_.work_external_J;
-  b.motor_J += last_.work_motor_J;
-  b.joint_J += last_.work_joint_J;
-  b.contact_J += last_.work_contact_J;
-  b.external_J += last_.work_external_J;
+      ledger_->motor_J + ledger_->joint_J + ledger_->contact_J + ledger_->external_J;
+  b.motor_J += ledger_->motor_J;
+  b.joint_J += ledger_->joint_J;
+  b.contact_J += ledger_->contact_J;
+  b.external_J += ledger_->external_J;
   b.stored_J += stored_J;
   b.error_J += std::abs(stored_J - works_J);
 }
 
-void MetricsAccumulator::AddRow(const logs::LogRow& row, const logs::SolveTimes& times) {
+void MetricsAccumulator::AddTimes(const logs::SolveTimesRow& times) {
+  if (times.mpc_s) mpc_times_.Add(*times.mpc_s);
+  if (times.wbc_s) wbc_times_.Add(*times.wbc_s);
+}
+
+void MetricsAccumulator::AddRow(const logs::Row& row) {
   estimation_.AddRow(row);
   model_.AddRow(row);
-  if (has_rows_ && row.segment != last_.segment) CloseBudget();
-  last_ = row;
-  has_rows_ = true;
   metrics_.duration_s = row.time_s;
-  metrics_.mass_kg = row.total_mass_kg;
-  if (times.mpc_s > 0.0) mpc_times_.Add(times.mpc_s);
-  if (times.wbc_s > 0.0) wbc_times_.Add(times.wbc_s);
-  if (row.fallen && in_stretch_) DropWindowBefore(row.time_s);
-  if (!row.operating || row.fallen || row.segment != segment_) EndStretch();
-  if (!row.operating || row.fallen) return;
+  if (row.true_mass) metrics_.mass_kg = row.true_mass->mass_kg;
+  if (row.solve_times) AddTimes(*row.solve_times);
+  if (!row.episode) return;
+  const logs::EpisodeRow& episode = *row.episode;
+  if (last_segment_ && episode.segment != *last_segment_) CloseBudget();
+  last_segment_ = episode.segment;
+  ledger_ = row.ledger;
+  if (episode.fallen && in_stretch_) DropWindowBefore(row.time_s);
+  const bool walking = episode.operating && !episode.fallen;
+  if (!walking || episode.segment != segment_) EndStretch();
+  if (!walking) return;
+  if (row.true_contacts) AddPeakForce(*row.true_contacts);
+  if (IsWhole(row)) AddWhole(row);
+}
+
+void MetricsAccumulator::AddPeakForce(const logs::TrueContactsRow& contacts) {
   for (std::size_t leg = 0; leg < 4; ++leg) {
-    const double* f = &row.f_F_W_N[3 * leg];
+    const double* f = &contacts.f_F_W_N[3 * leg];
     metrics_.peak_foot_force_N =
         std::max(metrics_.peak_foot_force_N, std::sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]));
   }
+}
+
+void MetricsAccumulator::AddWhole(const logs::Row& row) {
   if (!in_stretch_) StartStretch(row);
-  if (!SameCommand(row, steady_)) StartSteady(row);
+  if (command_.Update(row.time_s, *row.command)) StartSteady(row);
   AddWalking(row);
   AddWindow(row);
   AddTracking(row);
   previous_ = row;
 }
 
-void MetricsAccumulator::AddWalking(const logs::LogRow& row) {
+void MetricsAccumulator::AddWalking(const logs::Row& row) {
   metrics_.walking_s += row.time_s - previous_.time_s;
-  metrics_.energy.mech_abs_J += row.mech_abs_J - previous_.mech_abs_J;
-  metrics_.energy.mech_pos_J += row.mech_pos_J - previous_.mech_pos_J;
-  metrics_.energy.electrical_J += row.electrical_J - previous_.electrical_J;
-  metrics_.energy.battery_J += row.battery_J - previous_.battery_J;
-  chord_mass_kgs_ += row.total_mass_kg * (row.time_s - previous_.time_s);
-  if (row.time_s - chord_.time_s >= kChord_s - 1e-9) CloseChord(row);
+  metrics_.energy.mech_abs_J += row.energy->mech_abs_J - previous_.energy->mech_abs_J;
+  metrics_.energy.mech_pos_J += row.energy->mech_pos_J - previous_.energy->mech_pos_J;
+  metrics_.energy.electrical_J += row.energy->electrical_J - previous_.energy->electrical_J;
+  metrics_.energy.battery_J += row.energy->battery_J - previous_.energy->battery_J;
+  chord_mass_kgs_ += row.true_mass->mass_kg * (row.time_s - previous_.time_s);
+  if (const auto chord_m = path_.Add({row.time_s - previous_.time_s, HorizontalPlace(row)}))
+    AddChord(*chord_m, row);
 }
 
 /// One point of cost of transport against speed for every five steady seconds.
-void MetricsAccumulator::AddWindow(const logs::LogRow& row) {
-  if (OnFallback(row)) settled_s_ = row.time_s + kSettle_s;
-  if (row.time_s < settled_s_ || CommandSpeed(row) == 0.0) {
-    StartWindow(row);
-    return;
-  }
-  window_command_m_ += CommandSpeed(row) * (row.time_s - previous_.time_s);
-  const double elapsed_s = row.time_s - window_.time_s;
-  if (elapsed_s < kWindow_s - 1e-9) return;
-  const double v_mps = window_distance_m_ / elapsed_s, asked_mps = window_command_m_ / elapsed_s;
-  if (std::abs(v_mps - asked_mps) < SpeedMargin(asked_mps) && window_transport_J_ > 0.0) {
+void MetricsAccumulator::AddWindow(const logs::Row& row) {
+  const SteadyWindows::Step step = windows_.Add(
+      {row.time_s, row.time_s - previous_.time_s, SpeedOf(*row.command), OnFallback(row)});
+  if (step.ended && window_transport_J_ > 0.0) {
     const double work_J = window_transport_J_;
-    metrics_.windows.push_back({v_mps, asked_mps,
-                                (row.mech_abs_J - window_.energy.mech_abs_J) / work_J,
-                                (row.mech_pos_J - window_.energy.mech_pos_J) / work_J,
-                                (row.electrical_J - window_.energy.electrical_J) / work_J});
+    const Energy now = EnergyOf(row);
+    metrics_.windows.push_back({step.ended->v_mps, step.ended->command_mps,
+                                (now.mech_abs_J - window_energy_.mech_abs_J) / work_J,
+                                (now.mech_pos_J - window_energy_.mech_pos_J) / work_J,
+                                (now.electrical_J - window_energy_.electrical_J) / work_J});
     last_window_s_ = row.time_s;
   }
-  StartWindow(row);
+  if (step.begins) StartWindow(row);
 }
 
-void MetricsAccumulator::AddTracking(const logs::LogRow& row) {
-  if (row.time_s - steady_.time_s < kSettle_s) return;
+void MetricsAccumulator::AddTracking(const logs::Row& row) {
+  if (!command_.IsSettled(row.time_s)) return;
   TrackingErrors& t = metrics_.tracking;
-  if (IsStop(row)) {
-    if (!standing_) {
-      standing_ = true;
-      stand_x_m_ = row.p_WB_m[0];
-      stand_y_m_ = row.p_WB_m[1];
-    }
-    t.drift_m =
-        std::max(t.drift_m, std::hypot(row.p_WB_m[0] - stand_x_m_, row.p_WB_m[1] - stand_y_m_));
+  const logs::CommandRow& command = *row.command;
+  if (IsStop(command)) {
+    if (!stand_W_) stand_W_ = HorizontalPlace(row);
+    t.drift_m = std::max(t.drift_m, (HorizontalPlace(row) - *stand_W_).norm());
   }
-  const double yaw = row.rpy_rad[2], c = std::cos(yaw), s = std::sin(yaw);
-  const double v_x = c * row.v_WB_mps[0] + s * row.v_WB_mps[1];
-  const double v_y = -s * row.v_WB_mps[0] + c * row.v_WB_mps[1];
+  const double yaw = row.truth->rpy_rad[2], c = std::cos(yaw), s = std::sin(yaw);
+  const double v_x = c * row.truth->v_WB_mps[0] + s * row.truth->v_WB_mps[1];
+  const double v_y = -s * row.truth->v_WB_mps[0] + c * row.truth->v_WB_mps[1];
   t.velocity_x_mps += v_x;
   t.velocity_y_mps += v_y;
-  t.yaw_rate_radps += row.w_WB_radps[2];
-  t.command_x_mps += row.cmd_v_x_mps;
-  t.command_y_mps += row.cmd_v_y_mps;
-  t.command_yaw_radps += row.cmd_w_z_radps;
+  t.yaw_rate_radps += row.truth->w_WB_radps[2];
+  t.command_x_mps += command.v_x_mps;
+  t.command_y_mps += command.v_y_mps;
+  t.command_yaw_radps += command.w_z_radps;
   const auto squared = [](double x) { return x * x; };
   // The reference lives in the estimator's frame; its drift is no error of tracking.
-  sum_height_ += squared(row.com_z_m + HeightDrift(row) - row.ref_p_WC_m[2]);
-  sum_roll_ += squared(row.rpy_rad[0] - row.ref_rpy_rad[0]);
-  sum_pitch_ += squared(row.rpy_rad[1] - row.ref_rpy_rad[1]);
+  sum_height_ +=
+      squared(row.true_mass->p_WC_z_m + HeightDrift(row).value_or(0.0) - row.reference->p_WC_m[2]);
+  sum_roll_ += squared(row.truth->rpy_rad[0] - row.reference->rpy_rad[0]);
+  sum_pitch_ += squared(row.truth->rpy_rad[1] - row.reference->rpy_rad[1]);
   t.samples_s += row.time_s - previous_.time_s;
   ++rows_;
 
-  stride_.push_back({row.time_s, v_x - row.cmd_v_x_mps, v_y - row.cmd_v_y_mps});
-  const double stride_s = row.period_s > 0.0 ? row.period_s : kStride_s;
-  bool full = false;
-  while (row.time_s - stride_[stride_head_][0] > stride_s - 1e-9) {
-    ++stride_head_;
-    full = true;
-  }
-  if (!full) return;
-  double e_x = 0.0, e_y = 0.0;
-  const auto n = static_cast<double>(stride_.size() - stride_head_);
-  for (std::size_t i = stride_head_; i < stride_.size(); ++i) {
-    e_x += stride_[i][1] / n;
-    e_y += stride_[i][2] / n;
-  }
-  sum_velocity_ += e_x * e_x + e_y * e_y;
-  ++stride_rows_;
-  if (stride_head_ > 4096) {
-    stride_.erase(stride_.begin(), stride_.begin() + static_cast<std::ptrdiff_t>(stride_head_));
-    stride_head_ = 0;
+  const double stride_s = row.plan && row.plan->period_s > 0.0 ? row.plan->period_s : kStride_s;
+  const Vec2 error(v_x - command.v_x_mps, v_y - command.v_y_mps);
+  if (const auto mean = stride_.Add(row.time_s, error, stride_s)) {
+    sum_velocity_ += mean->squaredNorm();
+    ++stride_rows_;
   }
 }
 

@@ -10,6 +10,10 @@
 
 #include "analysis/metrics/estimation_metrics.h"
 #include "analysis/metrics/model_metrics.h"
+#include "analysis/signals/falls.h"
+#include "analysis/signals/path.h"
+#include "analysis/signals/steady.h"
+#include "analysis/signals/stride_mean.h"
 #include "core/math/types.h"
 #include "logs/row.h"
 
@@ -69,13 +73,6 @@ class TimeHistogram {
   long count_ = 0;
 };
 
-/// A fall: when, why, and where the trunk was. Results of older versions lack the place.
-struct FallEvent {
-  double time_s = 0.0;
-  std::string cause;
-  std::optional<Vec2> p_WB = std::nullopt;  // m, horizontal
-};
-
 /// Everything reported of one episode. Definitions: docs/METRICS.md.
 struct EpisodeMetrics {
   double duration_s = 0.0, walking_s = 0.0;
@@ -94,27 +91,26 @@ struct EpisodeMetrics {
   ModelMetrics model;
 };
 
-/// Accumulates rows as they come, from the runner or from a log.
+/// Accumulates rows as they come, from an episode or from a log.
 class MetricsAccumulator {
  public:
   explicit MetricsAccumulator(double gravity_mps2) : gravity_mps2_(gravity_mps2) {}
-  void AddRow(const logs::LogRow& row, const logs::SolveTimes& times);
+  void AddRow(const logs::Row& row);
   void AddFall(const FallEvent& fall) { metrics_.falls.push_back(fall); }
   [[nodiscard]] EpisodeMetrics Finish();
 
  private:
-  struct Mark {
-    double time_s = 0.0, x_m = 0.0, y_m = 0.0;
-    Energy energy;
-  };
-  [[nodiscard]] static Mark MarkOf(const logs::LogRow& row);
-  void AddWalking(const logs::LogRow& row);
-  void AddWindow(const logs::LogRow& row);
-  void AddTracking(const logs::LogRow& row);
-  void StartStretch(const logs::LogRow& row);
-  void StartSteady(const logs::LogRow& row);
-  void CloseChord(const logs::LogRow& row);
-  void StartWindow(const logs::LogRow& row);
+  [[nodiscard]] static Energy EnergyOf(const logs::Row& row);
+  void AddTimes(const logs::SolveTimesRow& times);
+  void AddPeakForce(const logs::TrueContactsRow& contacts);
+  void AddWhole(const logs::Row& row);
+  void AddWalking(const logs::Row& row);
+  void AddWindow(const logs::Row& row);
+  void AddTracking(const logs::Row& row);
+  void StartStretch(const logs::Row& row);
+  void StartSteady(const logs::Row& row);
+  void AddChord(double chord_m, const logs::Row& row);
+  void StartWindow(const logs::Row& row);
   void DropWindowBefore(double fall_s);
   void EndStretch();
   void CloseBudget();
@@ -123,26 +119,23 @@ class MetricsAccumulator {
   EpisodeMetrics metrics_;
   bool in_stretch_ = false;
   std::uint32_t segment_ = 0;
-  logs::LogRow previous_;
-  Mark chord_, window_;
-  double chord_mass_kgs_ = 0.0;  // ∫ m dt over the open chord
-  double window_distance_m_ = 0.0, window_transport_J_ = 0.0;
-  double window_command_m_ = 0.0;  // that the command asks for over the window
-  double settled_s_ = 0.0;         // from when on windows may begin
-  double last_window_s_ = -1.0;    // end of the last one of this stretch
-  // Tracking.
-  logs::LogRow steady_;  // with which the present command began
-  double stand_x_m_ = 0.0, stand_y_m_ = 0.0;
-  bool standing_ = false;
-  std::vector<std::array<double, 3>> stride_;  // time, error x, error y of the last stride
-  std::size_t stride_head_ = 0;
+  logs::Row previous_;
+  PathLength path_;
+  double chord_start_s_ = 0.0, chord_mass_kgs_ = 0.0;  // of the open chord: start, ∫ m dt
+  SteadyCommand command_;
+  SteadyWindows windows_;
+  Energy window_energy_;  // at the start of the open window
+  double window_transport_J_ = 0.0;
+  double last_window_s_ = -1.0;  // end of the last one of this stretch
+  std::optional<Vec2> stand_W_;  // where steady standing began
+  StrideMean stride_;            // of the velocity's error
   double sum_velocity_ = 0.0, sum_height_ = 0.0, sum_roll_ = 0.0, sum_pitch_ = 0.0;
   long rows_ = 0, stride_rows_ = 0;
   TimeHistogram mpc_times_, wbc_times_;
   EstimationAccumulator estimation_;
   ModelAccumulator model_;
-  logs::LogRow last_;  // of any kind
-  bool has_rows_ = false;
+  std::optional<std::uint32_t> last_segment_;  // of any row
+  std::optional<logs::LedgerRow> ledger_;      // of the last row
 };
 
 void to_json(nlohmann::json& j, const EpisodeMetrics& m);

@@ -41,8 +41,9 @@ std::vector<double> Collect(const std::vector<ModelInterval>& intervals, Get get
 
 }  // namespace
 
-bool HasLearnedModel(const logs::LogRow& row) noexcept {
-  return row.learned_mass_kg > 0.0 && row.learned_tared;
+const logs::LearnedModel* FindLearnedModel(const logs::Row& row) noexcept {
+  const bool learned = row.model && row.model->learned && row.model->learned->tared;
+  return learned ? &*row.model->learned : nullptr;
 }
 
 ModelSummary SummariseModel(const std::vector<ModelInterval>& intervals) {
@@ -83,9 +84,10 @@ void ModelAccumulator::Sums::Add(double mass_error_kg, double com_x_error_m,
   com_y_m2 += com_y_error_m * com_y_error_m;
 }
 
-void ModelAccumulator::AddRow(const logs::LogRow& row) {
-  const bool at_work = row.operating && !row.fallen;
-  const bool learned = HasLearnedModel(row);
+void ModelAccumulator::AddRow(const logs::Row& row) {
+  if (!row.episode || !row.true_mass || !row.model) return;
+  const bool at_work = row.episode->operating && !row.episode->fallen;
+  const bool learned = FindLearnedModel(row) != nullptr;
   if (at_work && learned && !metrics_.present) {
     // What came before was at best the model without adaptation.
     metrics_ = {.present = true, .intervals = {}};
@@ -100,12 +102,13 @@ void ModelAccumulator::AddRow(const logs::LogRow& row) {
   }
   if (at_work) Judge(row);
   last_s_ = row.time_s;
-  last_mass_kg_ = row.total_mass_kg;
+  last_mass_kg_ = row.true_mass->mass_kg;
 }
 
 /// Begins a new interval at every row of a change of mass: the one that lasts is the change's end.
-void ModelAccumulator::FollowMass(const logs::LogRow& row) {
-  if (std::abs(row.total_mass_kg - last_mass_kg_) <= kSameMass_kg) return;
+void ModelAccumulator::FollowMass(const logs::Row& row) {
+  const double mass_kg = row.true_mass->mass_kg;
+  if (std::abs(mass_kg - last_mass_kg_) <= kSameMass_kg) return;
   const bool same_change = changed_ && row.time_s - interval_.start_s < kSameChange_s - kRounding_s;
   if (!same_change) {
     Close(row.time_s);
@@ -113,14 +116,14 @@ void ModelAccumulator::FollowMass(const logs::LogRow& row) {
     mass_before_kg_ = last_mass_kg_;
   }
   changed_ = true;
-  Open(row, change_s_, row.total_mass_kg - mass_before_kg_);
+  Open(row, change_s_, mass_kg - mass_before_kg_);
 }
 
-void ModelAccumulator::Open(const logs::LogRow& row, double change_s, double step_kg) noexcept {
+void ModelAccumulator::Open(const logs::Row& row, double change_s, double step_kg) noexcept {
   open_ = true;
   interval_ = {};
   interval_.start_s = row.time_s;
-  interval_.mass_kg = row.total_mass_kg;
+  interval_.mass_kg = row.true_mass->mass_kg;
   interval_.step_kg = step_kg;
   change_s_ = change_s;
   settled_ = late_ = {};
@@ -128,18 +131,17 @@ void ModelAccumulator::Open(const logs::LogRow& row, double change_s, double ste
   all_used_rows_ = 0;
 }
 
-void ModelAccumulator::Judge(const logs::LogRow& row) noexcept {
-  const double used_error_kg = row.used_mass_kg - row.total_mass_kg;
-  const bool used = row.used_mass_kg > 0.0;
-  if (used) {
-    all_used_kg_ += used_error_kg;
-    ++all_used_rows_;
-  }
-  if (!HasLearnedModel(row)) return;
+void ModelAccumulator::Judge(const logs::Row& row) noexcept {
+  const logs::TrueMassRow& truth = *row.true_mass;
+  const double used_error_kg = row.model->used_mass_kg - truth.mass_kg;
+  all_used_kg_ += used_error_kg;
+  ++all_used_rows_;
+  const logs::LearnedModel* learned = FindLearnedModel(row);
+  if (learned == nullptr) return;
   ++interval_.rows;
-  const double error_kg = row.learned_mass_kg - row.total_mass_kg;
-  const double com_x_m = row.learned_p_BC_m[0] - row.p_BC_m[0];
-  const double com_y_m = row.learned_p_BC_m[1] - row.p_BC_m[1];
+  const double error_kg = learned->mass_kg - truth.mass_kg;
+  const double com_x_m = learned->p_BC_m[0] - truth.p_BC_m[0];
+  const double com_y_m = learned->p_BC_m[1] - truth.p_BC_m[1];
   if (row.time_s - change_s_ >= kLate_s - kRounding_s) late_.Add(error_kg, com_x_m, com_y_m);
   interval_.settled = std::abs(error_kg) <= Margin(interval_.step_kg);
   if (!interval_.settled) {
@@ -148,10 +150,8 @@ void ModelAccumulator::Judge(const logs::LogRow& row) noexcept {
     return;
   }
   settled_.Add(error_kg, com_x_m, com_y_m);
-  if (used) {
-    settled_.used_kg += used_error_kg;
-    ++settled_.used_rows;
-  }
+  settled_.used_kg += used_error_kg;
+  ++settled_.used_rows;
 }
 
 void ModelAccumulator::Close(double end_s) {

@@ -11,9 +11,8 @@
 
 namespace scoria::analysis {
 
-/// False for rows on which nothing was learned of the mass, or not since the controller's last
-/// start.
-[[nodiscard]] bool HasLearnedModel(const logs::LogRow& row) noexcept;
+/// What was learned of the mass since the controller's last start; null where nothing was.
+[[nodiscard]] const logs::LearnedModel* FindLearnedModel(const logs::Row& row) noexcept;
 
 /// After this all estimators here have forgotten what was carried before.
 inline constexpr double kLate_s = 10.0;
@@ -63,7 +62,8 @@ struct ModelSummary {
 /// of changes of mass.
 class ModelAccumulator {
  public:
-  void AddRow(const logs::LogRow& row);
+  /// Rows without the controller's model or the true mass are left out.
+  void AddRow(const logs::Row& row);
   /// Ends the open interval.
   [[nodiscard]] ModelMetrics Finish();
 
@@ -74,10 +74,10 @@ class ModelAccumulator {
            com_y_m2 = 0.0, used_kg = 0.0;
     void Add(double mass_error_kg, double com_x_error_m, double com_y_error_m) noexcept;
   };
-  void FollowMass(const logs::LogRow& row);
-  void Open(const logs::LogRow& row, double change_s, double step_kg) noexcept;
+  void FollowMass(const logs::Row& row);
+  void Open(const logs::Row& row, double change_s, double step_kg) noexcept;
   void Close(double end_s);
-  void Judge(const logs::LogRow& row) noexcept;
+  void Judge(const logs::Row& row) noexcept;
 
   ModelMetrics metrics_;
   bool started_ = false, open_ = false;

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "analysis/metrics/estimation_metrics.h"
+#include "analysis/signals/motion.h"
 #include "analysis/study/compare.h"
 #include "core/files.h"
 #include "core/robot/contact.h"
@@ -233,27 +234,52 @@ CaptionedFigure SolveTimeFigure(const CampaignResults& results) {
           "99th percentiles."};
 }
 
+/// Height of the centre of mass and of its reference over the ground, m.
+std::array<double, 2> HeightsOf(const logs::Row& r) {
+  if (!r.truth || !r.truth->ground_z_m) return {kNan, kNan};
+  const double ground_z_m = *r.truth->ground_z_m;
+  return {r.true_mass ? r.true_mass->p_WC_z_m - ground_z_m : kNan,
+          r.reference ? r.reference->p_WC_m[2] - HeightDrift(r).value_or(0.0) - ground_z_m : kNan};
+}
+
+/// Forward speed, m/s, roll and pitch, degrees: by the truth, or for want of it by the estimate.
+std::array<double, 3> MotionOf(const logs::Row& r) {
+  const auto motion = FindMotion(r);
+  if (!motion) return {kNan, kNan, kNan};
+  const double yaw_rad = motion->rpy_rad.z();
+  return {std::cos(yaw_rad) * motion->v_WB.x() + std::sin(yaw_rad) * motion->v_WB.y(),
+          motion->rpy_rad.x() * kDegrees, motion->rpy_rad.y() * kDegrees};
+}
+
+bool BearsWeight(const logs::Row& r, std::size_t leg) {
+  if (r.true_contacts) return r.true_contacts->f_F_W_N[3 * leg + 2] > 5.0;
+  return r.contacts && r.contacts->contact[leg];
+}
+
+/// Whether a foot's sensor is unhealthy and the momentum observer stands in for it.
+bool HasSensorFallback(const logs::Row& r, std::size_t leg) {
+  return r.contacts && r.contacts->source && r.contacts->sensor &&
+         static_cast<ContactSource>((*r.contacts->source)[leg]) == ContactSource::kObserver &&
+         !r.contacts->sensor->healthy[leg];
+}
+
 /// Columns of the time figure. Feet and stages are lines at their own height, or nothing.
-std::vector<double> TimeRow(const logs::LogRow& r) {
-  const double c = std::cos(r.rpy_rad[2]), s = std::sin(r.rpy_rad[2]);
-  std::vector<double> row = {r.time_s,
-                             r.com_z_m - r.ground_z_m,
-                             r.ref_p_WC_m[2] - HeightDrift(r) - r.ground_z_m,
-                             c * r.v_WB_mps[0] + s * r.v_WB_mps[1],
-                             r.cmd_v_x_mps,
-                             r.rpy_rad[0] * kDegrees,
-                             r.rpy_rad[1] * kDegrees};
+std::vector<double> TimeRow(const logs::Row& r) {
+  const auto [height_m, reference_m] = HeightsOf(r);
+  const auto [speed_mps, roll_deg, pitch_deg] = MotionOf(r);
+  std::vector<double> row = {
+      r.time_s, height_m, reference_m, speed_mps, r.command ? r.command->v_x_mps : kNan,
+      roll_deg, pitch_deg};
   bool sensor_given_up = false;
   for (std::size_t leg = 0; leg < 4; ++leg) {
-    row.push_back(r.f_F_W_N[3 * leg + 2] > 5.0 ? 4.0 - static_cast<double>(leg) : kNan);
-    const auto source = static_cast<ContactSource>(r.contact_source[leg]);
-    sensor_given_up |=
-        source == ContactSource::kObserver && !r.sensor_healthy[leg] && r.sensor_counts[leg] != 0.0;
+    row.push_back(BearsWeight(r, leg) ? 4.0 - static_cast<double>(leg) : kNan);
+    sensor_given_up |= HasSensorFallback(r, leg);
   }
-  row.push_back(r.period_s);
+  row.push_back(r.plan ? r.plan->period_s : kNan);
   row.push_back(sensor_given_up ? 7.0 : kNan);
-  for (std::size_t i = 0; i < r.fallen_back.size(); ++i)
-    row.push_back(r.fallen_back[i] ? 6.0 - static_cast<double>(i) : kNan);
+  const auto fallen_back = r.supervision ? r.supervision->fallen_back : std::array<bool, 6>{};
+  for (std::size_t i = 0; i < fallen_back.size(); ++i)
+    row.push_back(fallen_back[i] ? 6.0 - static_cast<double>(i) : kNan);
   return row;
 }
 
@@ -287,7 +313,7 @@ CaptionedFigure TimeFigure(const logs::LogContent& log, const std::string& name)
   std::vector<std::vector<double>> rows;
   double previous_s = 0.0;
   for (std::size_t i = 0; i < log.rows.size(); i += every) {
-    const logs::LogRow& r = log.rows[i];
+    const logs::Row& r = log.rows[i];
     if (!rows.empty() && r.time_s - previous_s > 1.0)
       rows.push_back(std::vector<double>(TimeRow({}).size(), kNan));  // a gap is no line
     previous_s = r.time_s;

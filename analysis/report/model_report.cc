@@ -156,35 +156,42 @@ void AddLateValues(const CampaignResults& results, const std::vector<Cell>& cell
 }
 
 /// Time, learned mass, its band, used and true mass [kg], COM x learned and true, y [mm].
-std::vector<double> ModelPoint(const logs::LogRow& r) {
-  const bool known = r.operating && !r.fallen && HasLearnedModel(r);
-  const auto learned = [known](double value) { return known ? value : kNan; };
+std::vector<double> ModelPoint(const logs::Row& r) {
+  const bool operating = r.episode && r.episode->operating;
+  const logs::LearnedModel* learned =
+      operating && !r.episode->fallen ? FindLearnedModel(r) : nullptr;
+  const logs::TrueMassRow truth = r.true_mass.value_or(logs::TrueMassRow{kNan, {kNan, kNan}});
+  const logs::LearnedModel shown =
+      learned != nullptr ? *learned : logs::LearnedModel{kNan, kNan, {kNan, kNan}};
   return {r.time_s,
-          learned(r.learned_mass_kg),
-          learned(r.learned_mass_kg - r.learned_sigma_kg),
-          learned(r.learned_mass_kg + r.learned_sigma_kg),
-          r.operating && r.used_mass_kg > 0.0 ? r.used_mass_kg : kNan,
-          r.total_mass_kg,
-          learned(1e3 * r.learned_p_BC_m[0]),
-          1e3 * r.p_BC_m[0],
-          learned(1e3 * r.learned_p_BC_m[1]),
-          1e3 * r.p_BC_m[1]};
+          shown.mass_kg,
+          shown.mass_kg - shown.sigma_kg,
+          shown.mass_kg + shown.sigma_kg,
+          operating && r.model ? r.model->used_mass_kg : kNan,
+          truth.mass_kg,
+          1e3 * shown.p_BC_m[0],
+          1e3 * truth.p_BC_m[0],
+          1e3 * shown.p_BC_m[1],
+          1e3 * truth.p_BC_m[1]};
 }
 
 /// Stretches of constant mass above the smallest: gradual changes stay white.
-std::vector<std::pair<double, double>> LoadedStretches(const std::vector<logs::LogRow>& rows) {
+std::vector<std::pair<double, double>> LoadedStretches(const std::vector<logs::Row>& rows) {
   constexpr double kLeastPayload_kg = 0.01, kLeast_s = 0.1;
-  std::vector<std::pair<double, double>> stretches;
-  if (rows.empty()) return stretches;
-  double base_kg = rows.front().total_mass_kg;
-  for (const logs::LogRow& r : rows) base_kg = std::min(base_kg, r.total_mass_kg);
+  std::vector<std::pair<double, double>> stretches, masses;  // from, to; time, mass
+  for (const logs::Row& r : rows) {
+    if (r.true_mass) masses.emplace_back(r.time_s, r.true_mass->mass_kg);
+  }
+  if (masses.empty()) return stretches;
+  double base_kg = masses.front().second;
+  for (const auto& [time_s, mass_kg] : masses) base_kg = std::min(base_kg, mass_kg);
   std::size_t start = 0;
-  for (std::size_t i = 1; i <= rows.size(); ++i) {
-    if (i < rows.size() && rows[i].total_mass_kg == rows[start].total_mass_kg) continue;
-    const double end_s = i < rows.size() ? rows[i].time_s : rows.back().time_s;
-    const bool loaded = rows[start].total_mass_kg > base_kg + kLeastPayload_kg;
-    if (loaded && end_s - rows[start].time_s >= kLeast_s)
-      stretches.emplace_back(rows[start].time_s, end_s);
+  for (std::size_t i = 1; i <= masses.size(); ++i) {
+    if (i < masses.size() && masses[i].second == masses[start].second) continue;
+    const double end_s = i < masses.size() ? masses[i].first : masses.back().first;
+    const bool loaded = masses[start].second > base_kg + kLeastPayload_kg;
+    if (loaded && end_s - masses[start].first >= kLeast_s)
+      stretches.emplace_back(masses[start].first, end_s);
     start = i;
   }
   return stretches;

@@ -14,6 +14,7 @@
 #include <opencv2/videoio.hpp>
 
 #include "analysis/metrics/estimation_metrics.h"
+#include "analysis/signals/motion.h"
 #include "analysis/video/scene.h"
 #include "core/files.h"
 #include "core/math/so3.h"
@@ -31,9 +32,10 @@ Vec3 ToVec3(const double* v) { return {v[0], v[1], v[2]}; }
 /// Follows the robot from behind and to the side, turning slowly.
 class Camera {
  public:
-  void Update(const logs::LogRow& row, double dt_s, Frame& frame) {
-    const Vec3 p = ToVec3(row.p_WB_m.data());
-    const double yaw = row.rpy_rad[2];
+  void Update(const logs::Row& row, double dt_s, Frame& frame) {
+    const TrunkMotion motion = FindMotion(row).value();
+    const Vec3& p = motion.p_WB;
+    const double yaw = motion.rpy_rad.z();
     constexpr double kSmooth_s = 0.8, kJump_m = 1.0;
     const double gain =
         started_ && (p - at_).norm() < kJump_m ? 1.0 - std::exp(-dt_s / kSmooth_s) : 1.0;
@@ -52,36 +54,64 @@ class Camera {
   bool started_ = false;
 };
 
-Frame MakeFrame(const logs::LogRow& row, std::span<const logs::LogRow> before) {
-  Frame frame;
-  frame.p_WB = ToVec3(row.p_WB_m.data());
-  frame.R_WB = core::RotationFromRpy(ToVec3(row.rpy_rad.data()));
-  for (const Leg leg : kLegs) {
-    const std::size_t at = 3 * static_cast<std::size_t>(leg);
-    frame.q[leg] = ToVec3(&row.q_rad[at]);
-    const Vec3 foot = ToVec3(&row.p_WF_m[at]), force = ToVec3(&row.f_F_W_N[at]);
-    constexpr double kMetresPerNewton = 0.25 / 75.0, kLongest_m = 0.6;
-    const Vec3 arrow = kMetresPerNewton * force;
-    const double shown = std::min(arrow.norm(), kLongest_m);
-    if (shown > 0.01)
-      frame.sticks.push_back({foot, foot + shown * arrow.normalized(), 0.008, kForceColour});
-    if (row.operating && row.leg_mode[static_cast<std::size_t>(leg)] == 1) {
-      frame.balls.push_back(
-          {FromEstimatorFrame(row, ToVec3(&row.foot_target_m[at])), 0.012, kFootholdColour});
-    }
+void AddForce(const Vec3& p_WF, const Vec3& f_F_W, Frame& frame) {
+  constexpr double kMetresPerNewton = 0.25 / 75.0, kLongest_m = 0.6, kShortest_m = 0.01;
+  const Vec3 arrow = kMetresPerNewton * f_F_W;
+  const double shown_m = std::min(arrow.norm(), kLongest_m);
+  if (shown_m > kShortest_m)
+    frame.sticks.push_back({p_WF, p_WF + shown_m * arrow.normalized(), 0.008, kForceColour});
+}
+
+/// Where the swing legs are meant to touch. Without truth the scene is the estimator's frame.
+void AddFootholds(const logs::Row& row, Frame& frame) {
+  const bool operating = row.episode && row.episode->operating;
+  if (!operating || !row.plan || !row.plan->leg_mode || !row.plan->foot_target_m) return;
+  for (std::size_t leg = 0; leg < 4; ++leg) {
+    if ((*row.plan->leg_mode)[leg] != 1) continue;
+    const Vec3 target = ToVec3(&(*row.plan->foot_target_m)[3 * leg]);
+    frame.balls.push_back(
+        {FromEstimatorFrame(row, target).value_or(target), 0.012, kFootholdColour});
   }
-  // The path walked, as dots on the ground.
+}
+
+/// The path walked since the last placement, as dots on the ground.
+void AddTrail(const logs::Row& row, std::span<const logs::Row> before, Frame& frame) {
   Vec2 last = frame.p_WB.head<2>();
   double trail_m = 0.0;
-  for (auto r = before.rbegin();
-       r != before.rend() && trail_m < kTrail_m && r->segment == row.segment; ++r) {
-    const Vec2 p(r->p_WB_m[0], r->p_WB_m[1]);
+  for (auto r = before.rbegin(); r != before.rend() && trail_m < kTrail_m; ++r) {
+    if (r->episode && row.episode && r->episode->segment != row.episode->segment) return;
+    const auto motion = FindMotion(*r);
+    if (!motion || !motion->ground_z_m) return;
+    const Vec2 p = motion->p_WB.head<2>();
     if ((p - last).norm() < kTrailSpacing_m) continue;
     trail_m += (p - last).norm();
     last = p;
-    frame.balls.push_back({Vec3(p.x(), p.y(), r->ground_z_m + 0.01), 0.012, kPathColour});
+    frame.balls.push_back({Vec3(p.x(), p.y(), *motion->ground_z_m + 0.01), 0.012, kPathColour});
   }
+}
+
+/// @pre CanDraw(row).
+Frame MakeFrame(const logs::Row& row, std::span<const logs::Row> before) {
+  Frame frame;
+  const TrunkMotion motion = FindMotion(row).value();
+  frame.p_WB = motion.p_WB;
+  frame.R_WB = core::RotationFromRpy(motion.rpy_rad);
+  const logs::Array12& q_rad = row.true_joints ? row.true_joints->q_rad : *row.measured->q_rad;
+  frame.q = Unflatten(q_rad);
+  if (row.true_contacts) {
+    const LegArray<Vec3> p_WF = Unflatten(row.true_contacts->p_WF_m);
+    const LegArray<Vec3> f_F_W = Unflatten(row.true_contacts->f_F_W_N);
+    for (const Leg leg : kLegs) AddForce(p_WF[leg], f_F_W[leg], frame);
+  }
+  AddFootholds(row, frame);
+  AddTrail(row, before, frame);
   return frame;
+}
+
+/// Whether a foot bears weight: truly, or for want of that as estimated.
+bool BearsWeight(const logs::Row& row, std::size_t leg) {
+  if (row.true_contacts) return row.true_contacts->f_F_W_N[3 * leg + 2] > 5.0;
+  return row.contacts && row.contacts->contact[leg];
 }
 
 void Text(cv::Mat& image, const std::string& text, int x, int y, double scale = 0.55) {
@@ -91,7 +121,7 @@ void Text(cv::Mat& image, const std::string& text, int x, int y, double scale = 
 }
 
 /// Which feet bore weight over the last two seconds, FL FR HL HR from the top, now at the right.
-void DrawGaitDiagram(cv::Mat& image, std::span<const logs::LogRow> rows, std::size_t now) {
+void DrawGaitDiagram(cv::Mat& image, std::span<const logs::Row> rows, std::size_t now) {
   constexpr double kSpan_s = 2.0;
   constexpr int kWidth = 260, kRow = 16, kMargin = 16, kNames = 40;
   const bool fits =
@@ -105,7 +135,7 @@ void DrawGaitDiagram(cv::Mat& image, std::span<const logs::LogRow> rows, std::si
     Text(image, std::string(LegName(kLegs[leg])), left - 34, y + 12, 0.42);
     const double t_now = rows[now].time_s;
     for (std::size_t i = now + 1; i-- > 0 && rows[i].time_s > t_now - kSpan_s;) {
-      if (rows[i].f_F_W_N[3 * leg + 2] <= 5.0) continue;
+      if (!BearsWeight(rows[i], leg)) continue;
       const int x =
           left + static_cast<int>((rows[i].time_s - t_now + kSpan_s) / kSpan_s * (kWidth - 2));
       cv::rectangle(image, {x, y + 2}, {x + 1, y + kRow - 3}, {240, 200, 90}, cv::FILLED);
@@ -113,21 +143,24 @@ void DrawGaitDiagram(cv::Mat& image, std::span<const logs::LogRow> rows, std::si
   }
 }
 
-void DrawOverlay(cv::Mat& image, std::span<const logs::LogRow> rows, std::size_t now,
+void DrawOverlay(cv::Mat& image, std::span<const logs::Row> rows, std::size_t now,
                  const std::string& title) {
-  const logs::LogRow& r = rows[now];
-  const double v = std::hypot(r.v_WB_mps[0], r.v_WB_mps[1]),
-               command = std::hypot(r.cmd_v_x_mps, r.cmd_v_y_mps);
+  const logs::Row& r = rows[now];
+  const double v = FindMotion(r).value().v_WB.head<2>().norm();
+  const std::string asked =
+      r.command
+          ? fmt::format(" (asked {:4.2f})", std::hypot(r.command->v_x_mps, r.command->v_y_mps))
+          : "";
   Text(image, title, 16, 28, 0.65);
-  Text(image, fmt::format("t {:6.2f} s    v {:4.2f} m/s (asked {:4.2f})", r.time_s, v, command), 16,
-       54);
-  Text(image, fmt::format("T {:4.2f} s    d {:4.2f}", r.period_s, r.duty), 16, 78);
-  if (r.fallen) Text(image, "FALLEN", image.cols / 2 - 60, 60, 1.0);
+  Text(image, fmt::format("t {:6.2f} s    v {:4.2f} m/s{}", r.time_s, v, asked), 16, 54);
+  if (r.plan)
+    Text(image, fmt::format("T {:4.2f} s    d {:4.2f}", r.plan->period_s, r.plan->duty), 16, 78);
+  if (r.episode && r.episode->fallen) Text(image, "FALLEN", image.cols / 2 - 60, 60, 1.0);
   DrawGaitDiagram(image, rows, now);
 }
 
 /// The scene with its overlay, as OpenCV writes it.
-cv::Mat DrawImage(Scene& scene, const Frame& frame, std::span<const logs::LogRow> rows,
+cv::Mat DrawImage(Scene& scene, const Frame& frame, std::span<const logs::Row> rows,
                   std::size_t now, const VideoOptions& options) {
   const cv::Mat bgra(cv::Size(options.width_px, options.height_px), CV_8UC4,
                      const_cast<std::uint8_t*>(scene.Draw(frame)));
@@ -196,7 +229,7 @@ void WriteFrame(const std::filesystem::path& file, const cv::Mat& image) {
 
 }  // namespace
 
-std::string RenderStill(std::span<const logs::LogRow> rows, const core::RobotDescription& robot,
+std::string RenderStill(std::span<const logs::Row> rows, const core::RobotDescription& robot,
                         const terrains::Heightfield& ground, const VideoOptions& options) {
   if (rows.empty()) throw std::runtime_error("picture: the log has no rows in this span");
   Scene scene(robot, ground, options.width_px, options.height_px);
@@ -206,6 +239,12 @@ std::string RenderStill(std::span<const logs::LogRow> rows, const core::RobotDes
   std::vector<unsigned char> bytes;
   cv::imencode(".jpg", DrawImage(scene, frame, rows, now, options), bytes);
   return {bytes.begin(), bytes.end()};
+}
+
+bool CanDraw(const logs::Row& row) noexcept {
+  const auto motion = FindMotion(row);
+  const bool joints = row.true_joints || (row.measured && row.measured->q_rad);
+  return joints && motion && motion->p_WB.allFinite();
 }
 
 void CheckVideoFile(const std::filesystem::path& file) {
@@ -219,7 +258,7 @@ void CheckVideoFile(const std::filesystem::path& file) {
         fmt::format("{}: there is no folder {}", file.string(), folder.string()));
 }
 
-void RenderVideo(std::span<const logs::LogRow> rows, const core::RobotDescription& robot,
+void RenderVideo(std::span<const logs::Row> rows, const core::RobotDescription& robot,
                  const terrains::Heightfield& ground, const VideoOptions& options) {
   CheckVideoFile(options.file);
   if (rows.empty()) throw std::runtime_error("video: the log has no rows in this span");

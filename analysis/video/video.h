@@ -24,18 +24,21 @@ struct VideoOptions {
 /// Edges of a frame: below, its text is not legible; above, H.264 players refuse it.
 inline constexpr int kSmallestFrame_px = 64, kLargestFrame_px = 4096;
 
+/// Whether a row says where the trunk and the joints are.
+[[nodiscard]] bool CanDraw(const logs::Row& row) noexcept;
+
 /// Errors: std::runtime_error that says what is wrong with the file's folder or extension.
 void CheckVideoFile(const std::filesystem::path& file);
 
-/// Renders rows of one log: robot, ground, foot forces, planned footholds, path walked, and a text
-/// overlay with time, speed and gait diagram. The file is there whole, as read back, or not at all.
-/// Errors: std::runtime_error if no encoder or no OpenGL context is at hand; as CheckVideoFile;
-/// core::FileError if the disk refuses the video.
-void RenderVideo(std::span<const logs::LogRow> rows, const core::RobotDescription& robot,
+/// Renders rows of one log that can all be drawn: robot, ground, foot forces, planned footholds,
+/// path walked, and a text overlay with time, speed and gait diagram. The file is there whole, as
+/// read back, or not at all. Errors: std::runtime_error if no encoder or no OpenGL context is at
+/// hand; as CheckVideoFile; core::FileError if the disk refuses the video.
+void RenderVideo(std::span<const logs::Row> rows, const core::RobotDescription& robot,
                  const terrains::Heightfield& ground, const VideoOptions& options);
 
 /// One frame of that video, at the last row, as a JPEG. Errors: as RenderVideo.
-[[nodiscard]] std::string RenderStill(std::span<const logs::LogRow> rows,
+[[nodiscard]] std::string RenderStill(std::span<const logs::Row> rows,
                                       const core::RobotDescription& robot,
                                       const terrains::Heightfield& ground,
                                       const VideoOptions& options);

@@ -40,7 +40,7 @@ analysis::ReportPicture Draw(const fs::path& log, const logs::LogContent& conten
   const double until_s =
       fell ? content.falls_s.front() : 0.5 * (rows.front().time_s + rows.back().time_s);
   const auto end = std::find_if(rows.begin(), rows.end(),
-                                [&](const logs::LogRow& r) { return r.time_s > until_s; });
+                                [&](const logs::Row& r) { return r.time_s > until_s; });
   analysis::VideoOptions options;
   options.width_px = 720;
   options.height_px = 480;
@@ -53,7 +53,8 @@ analysis::ReportPicture Draw(const fs::path& log, const logs::LogContent& conten
 
 std::optional<analysis::ReportPicture> TryToDraw(const fs::path& log) {
   try {
-    const logs::LogContent content = logs::ReadLog(log);
+    logs::LogContent content = logs::ReadLog(log);
+    std::erase_if(content.rows, [](const logs::Row& r) { return !analysis::CanDraw(r); });
     if (!content.rows.empty()) return Draw(log, content);
   } catch (const std::exception&) {
     // Another log may do.

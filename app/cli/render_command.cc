@@ -62,9 +62,8 @@ void AddRender(CLI::App& app) {
     const terrains::Heightfield ground = GroundOf(origin);
     logs::LogContent content = logs::ReadLog(o->log);
     if (!content.problem.empty()) Note(content.problem);
-    std::erase_if(content.rows, [&](const logs::LogRow& r) {
-      const bool finite = std::isfinite(r.p_WB_m[0] + r.p_WB_m[1] + r.p_WB_m[2]);
-      return !finite || r.time_s < o->from_s || r.time_s > o->to_s;
+    std::erase_if(content.rows, [&](const logs::Row& r) {
+      return !analysis::CanDraw(r) || r.time_s < o->from_s || r.time_s > o->to_s;
     });
     options.frames = o->frames;
     options.width_px = o->size[0];

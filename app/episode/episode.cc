@@ -17,6 +17,16 @@ bool IsFinite(const RobotState& s) {
   return s.p_WB.allFinite() && s.R_WB.allFinite() && s.v_WB.allFinite() && s.w_WB.allFinite();
 }
 
+/// @param ground_z_m  under the trunk, where it matters.
+analysis::FallSample ToFallSample(const sim::Truth& truth, double dt_s,
+                                  std::optional<double> ground_z_m = std::nullopt) {
+  analysis::FallSample sample{.dt_s = dt_s};
+  sample.tilt_rad = std::acos(std::clamp(truth.state.R_WB(2, 2), -1.0, 1.0));
+  if (ground_z_m) sample.height_m = truth.state.p_WB.z() - *ground_z_m;
+  sample.trunk_force_N = truth.trunk_force_N;
+  return sample;
+}
+
 Vec3 GravityOf(const Scenario& scenario) { return {0.0, 0.0, -scenario.gravity_mps2}; }
 
 }  // namespace
@@ -35,7 +45,8 @@ Episode::Episode(const Scenario& scenario, const core::RobotDescription& robot,
       solver_faults_(scenario.solver_faults, scenario.seed),
       pushes_(scenario.pushes),
       changes_(scenario),
-      fall_monitor_(scenario.fall, robot.config.nominal_height_m, scenario.physics.step_s),
+      fall_detector_(scenario.fall, robot.config.nominal_height_m),
+      stuck_detector_(scenario.fall),
       limit_(std::lround(scenario.duration_s / scenario.physics.step_s)),
       row_every_(std::max(1, static_cast<int>(std::lround(1.0 / (scenario.controller.rates.wbc_Hz *
                                                                  scenario.physics.step_s))))),
@@ -115,7 +126,7 @@ void Episode::Show() {
   const StepRecord record = Record();
   const bool wanted =
       step_ % row_every_ == 0 && std::ranges::any_of(observers_, &EpisodeObserver::wants_rows);
-  std::optional<logs::LogRow> row;
+  std::optional<logs::Row> row;
   if (wanted) row = MakeRow(record);
   for (EpisodeObserver* observer : observers_) {
     if (row && observer->wants_rows()) observer->OnRow(record, *row);
@@ -144,29 +155,33 @@ void Episode::AnnounceSensors() {
 void Episode::CheckRobot() {
   const sim::Truth& truth = world_.truth();
   const Vec3& p_WB = truth.state.p_WB;
+  const double dt_s = scenario_.physics.step_s;
   if (fallen_) {
-    lying_s_ += scenario_.physics.step_s;
+    lying_s_ += dt_s;
     if (lying_s_ >= scenario_.fall.lie_s) PutOnFeet();
     return;
   }
   if (!control_in_charge()) {
-    const FallCause cause = fall_monitor_.UpdateStandUp(truth, time_s() - stand_up_ends_s_);
-    if (cause != FallCause::kNone) Fall(cause);
+    const analysis::FallCause cause =
+        fall_detector_.UpdateStandUp(ToFallSample(truth, dt_s), time_s() - stand_up_ends_s_);
+    if (cause != analysis::FallCause::kNone) Fall(cause);
     return;
   }
-  odometer_.Update(p_WB.head<2>(), scenario_.physics.step_s);
-  result_.walked_m = odometer_.walked_m();
-  const FallCause cause = fall_monitor_.Update(truth, ground_.HeightAt(p_WB.x(), p_WB.y()));
-  if (cause != FallCause::kNone) {
+  path_.Add({dt_s, p_WB.head<2>()});
+  result_.walked_m = path_.length_m();
+  const analysis::FallCause cause =
+      fall_detector_.Update(ToFallSample(truth, dt_s, ground_.HeightAt(p_WB.x(), p_WB.y())));
+  if (cause != analysis::FallCause::kNone) {
     Fall(cause);
-  } else if (fall_monitor_.UpdateStuck(p_WB, std::hypot(command_.v_x_mps, command_.v_y_mps))) {
+  } else if (stuck_detector_.Update(
+                 {dt_s, p_WB.head<2>(), std::hypot(command_.v_x_mps, command_.v_y_mps)})) {
     ++result_.stuck;
     Announce("stuck", fmt::format("at x {:.3f} m, y {:.3f} m", p_WB.x(), p_WB.y()));
     PutOnFeet();
   }
 }
 
-void Episode::Fall(FallCause cause) {
+void Episode::Fall(analysis::FallCause cause) {
   const Vec3& p_WB = world_.truth().state.p_WB;
   const std::string_view name = core::EnumName(cause);
   fallen_ = true;
@@ -178,8 +193,8 @@ void Episode::Fall(FallCause cause) {
 }
 
 void Episode::CloseChord() {
-  odometer_.CloseChord(world_.truth().state.p_WB.head<2>());
-  result_.walked_m = odometer_.walked_m();
+  path_.CloseChord(world_.truth().state.p_WB.head<2>());
+  result_.walked_m = path_.length_m();
 }
 
 /// As in the field: the robot is set on its feet on the nearest good ground ahead. If it has not
@@ -211,8 +226,9 @@ Place Episode::SetDown(const Place& wanted, double ahead_m, bool standing) {
                         : PlaceLying(robot_, ground_, place));
   sensors_.Reset();
   actuation_.Reset();
-  fall_monitor_.Reset();
-  odometer_.Lift();
+  fall_detector_.Reset();
+  stuck_detector_.Reset();
+  path_.Lift();
   StartController(place, standing);
   fallen_ = false;
   operating_s_ = 0.0;
@@ -286,6 +302,7 @@ StepRecord Episode::Record() const {
           actuation_.battery(),
           actuation_.motor_tau_Nm(),
           ground_.HeightAt(truth.state.p_WB.x(), truth.state.p_WB.y()),
+          robot_.config.has_foot_sensors,
           fallen_,
           segment_,
           faults_,

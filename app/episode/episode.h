@@ -6,10 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "analysis/signals/falls.h"
+#include "analysis/signals/path.h"
+#include "analysis/signals/stuck.h"
 #include "app/episode/episode_result.h"
-#include "app/episode/fall_monitor.h"
 #include "app/episode/observer.h"
-#include "app/episode/odometer.h"
 #include "app/episode/operator.h"
 #include "app/episode/solver_fault_player.h"
 #include "app/episode/timeline.h"
@@ -59,7 +60,7 @@ class Episode {
   void Announce(const std::string& kind, const std::string& detail);
   void AnnounceSensors();
   void CheckRobot();
-  void Fall(FallCause cause);
+  void Fall(analysis::FallCause cause);
   void PutOnFeet();
   Place SetDown(const Place& wanted, double ahead_m, bool standing);
   void StartController(const Place& place, bool standing);
@@ -87,8 +88,9 @@ class Episode {
   SolverFaultPlayer solver_faults_;
   Pushes pushes_;
   ControllerChanges changes_;
-  FallMonitor fall_monitor_;
-  Odometer odometer_;
+  analysis::FallDetector fall_detector_;
+  analysis::StuckDetector stuck_detector_;
+  analysis::PathLength path_;
   std::optional<controller::Start> start_;  // the placement in force
   std::unique_ptr<controller::Controller> controller_;
 

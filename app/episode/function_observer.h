@@ -10,11 +10,11 @@ namespace scoria::app {
 /// An observer made of functions; an empty one is not called.
 class FunctionObserver final : public EpisodeObserver {
  public:
-  std::function<void(const StepRecord&, const logs::LogRow&)> on_row;
+  std::function<void(const StepRecord&, const logs::Row&)> on_row;
   std::function<void(const StepRecord&)> on_step;
   std::function<void(const EpisodeEvent&)> on_event;
 
-  void OnRow(const StepRecord& record, const logs::LogRow& row) override { on_row(record, row); }
+  void OnRow(const StepRecord& record, const logs::Row& row) override { on_row(record, row); }
   void OnStep(const StepRecord& record) override {
     if (on_step) on_step(record);
   }

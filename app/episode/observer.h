@@ -25,7 +25,7 @@ class EpisodeObserver {
   /// observer is attached.
   virtual void OnStart(double /*time_s*/, const controller::Start& /*start*/) {}
   /// At the rate of the body controller, before OnStep, for observers that want rows.
-  virtual void OnRow(const StepRecord& /*record*/, const logs::LogRow& /*row*/) {}
+  virtual void OnRow(const StepRecord& /*record*/, const logs::Row& /*row*/) {}
   /// Every physics step, between the controller's answer and the physics.
   virtual void OnStep(const StepRecord& /*record*/) {}
   virtual void OnEvent(const EpisodeEvent& /*event*/) {}

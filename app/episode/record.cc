@@ -6,7 +6,9 @@
 
 #include "app/episode/arrays.h"
 #include "app/run/log_origin.h"
+#include "app/version.h"
 #include "core/math/so3.h"
+#include "logs/read_rows.h"
 
 namespace scoria::app {
 namespace {
@@ -30,11 +32,11 @@ enum TopicId {
   kBattery,
   kHeartbeat,
   kModel,
-  kRow,
   kHash,
   kEvent,
   kStart,
   kInput,
+  kFirstRowGroup,
 };
 
 std::int64_t ToNanoseconds(double time_s) { return std::llround(time_s * 1e9); }
@@ -63,7 +65,7 @@ msg::Quaternion ToMessage(const Mat3& R) {
 }
 
 template <class Message>
-Topic MakeTopic(const char* name, bool reproducible = true) {
+Topic MakeTopic(const std::string& name, bool reproducible = true) {
   return {name, Message::kTypeName, logs::SchemaWriter::SchemaOf<Message>(), reproducible,
           [](std::span<const std::byte> bytes) {
             auto message = logs::DecodeCdr<Message>(bytes);
@@ -217,10 +219,8 @@ msg::ControllerInput MakeControllerInput(const StepRecord& r) {
   return m;
 }
 
-}  // namespace
-
-const std::vector<Topic>& RecordedTopics() {
-  static const std::vector<Topic> kTopics = {
+std::vector<Topic> FixedTopics() {
+  return {
       MakeTopic<msg::JointState>("/joint_states"),
       MakeTopic<msg::Imu>("/imu_measurement"),
       MakeTopic<msg::ContactState>("/contact_state"),
@@ -234,12 +234,28 @@ const std::vector<Topic>& RecordedTopics() {
       MakeTopic<msg::BatteryState>("/battery_state"),
       MakeTopic<msg::ControllerInfo>("/controller_heartbeat"),
       MakeTopic<msg::QuadModel>("/quad_model_update"),
-      MakeTopic<logs::LogRow>("/scoria/row"),
       MakeTopic<msg::StateHash>("/scoria/state_hash"),
       MakeTopic<msg::Event>("/scoria/event"),
       MakeTopic<msg::ControllerStart>("/scoria/controller_start"),
       MakeTopic<msg::ControllerInput>("/scoria/controller_input"),
   };
+}
+
+/// One per group of the row.
+std::vector<Topic> AppendRowTopics(std::vector<Topic> topics) {
+  const logs::Row row;
+  logs::ForEachGroup(row, [&]<class Group>(const std::optional<Group>&) {
+    const bool reproducible = Group::kGroup != logs::RowGroup::kSolveTimes;
+    topics.push_back(
+        MakeTopic<logs::RowMessage<Group>>(logs::TopicOf(Group::kGroup), reproducible));
+  });
+  return topics;
+}
+
+}  // namespace
+
+const std::vector<Topic>& RecordedTopics() {
+  static const std::vector<Topic> kTopics = AppendRowTopics(FixedTopics());
   return kTopics;
 }
 
@@ -254,12 +270,17 @@ void Recorder::Write(const Topic& topic, double time_s, Message message) {
   sink_.Write(topic, ToNanoseconds(time_s), buffer_);
 }
 
-void Recorder::OnRow(const StepRecord& r, const logs::LogRow& row) {
+void Recorder::OnRow(const StepRecord& r, const logs::Row& row) {
   RecordSensors(r);
   RecordBody(r);
   if (r.control.mpc_updated) RecordPlans(r);
   if (r.step % slow_every_ == 0) RecordSlow(r);
-  Write(RecordedTopics()[kRow], r.time_s, row);
+  std::size_t topic = kFirstRowGroup;
+  logs::ForEachGroup(row, [&]<class Group>(const std::optional<Group>& group) {
+    if (group)
+      Write(RecordedTopics()[topic], r.time_s, logs::RowMessage<Group>{row.time_s, *group});
+    ++topic;
+  });
 }
 
 void Recorder::RecordSensors(const StepRecord& r) {
@@ -332,6 +353,7 @@ FileSink::FileSink(const std::filesystem::path& path, const Scenario& scenario,
                    const core::RobotDescription& robot, const logs::McapMetadata& extra)
     : writer_(path), params_(scenario.log) {
   writer_.AddMetadata(kScenarioMetadata, MakeLogMetadata(scenario, robot, extra));
+  writer_.AddMetadata(logs::kRowMetadata, logs::MakeRowMetadata(kVersion));
   if (const auto heightmap = PackHeightmap(scenario)) writer_.AddAttachment(*heightmap);
   for (const Topic& topic : RecordedTopics()) {
     channels_.push_back(writer_.AddChannel(topic.name, topic.type_name, topic.schema_text));

@@ -41,7 +41,7 @@ class Recorder final : public EpisodeObserver {
   /// `sink` is borrowed.
   Recorder(MessageSink& sink, const Scenario& scenario);
   void OnStart(double time_s, const controller::Start& start) override;
-  void OnRow(const StepRecord& record, const logs::LogRow& row) override;
+  void OnRow(const StepRecord& record, const logs::Row& row) override;
   void OnStep(const StepRecord& record) override;
   void OnEvent(const EpisodeEvent& event) override;
   [[nodiscard]] bool wants_rows() const override { return true; }

@@ -7,13 +7,11 @@
 namespace scoria::app {
 
 /// The row that analysis sees of a step.
-[[nodiscard]] logs::LogRow MakeRow(const StepRecord& record);
+[[nodiscard]] logs::Row MakeRow(const StepRecord& record);
 
-/// Wall-clock times of the solvers in that step.
-[[nodiscard]] logs::SolveTimes SolveTimesOf(const controller::ControlOutput& control);
-
-/// Writes what the controller believes into a row, beside the truth.
-void FillEstimate(const controller::ControlOutput& control, const RobotState& truth,
-                  logs::LogRow& row);
+/// What the controller says of itself, in a row: plan, reference, estimate, contacts, model and
+/// supervision.
+/// @param has_foot_sensors  of the robot.
+void FillControl(const controller::ControlOutput& control, bool has_foot_sensors, logs::Row& row);
 
 }  // namespace scoria::app

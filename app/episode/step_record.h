@@ -26,6 +26,7 @@ struct StepRecord {
   const sim::BatteryState& battery;
   const LegArray<Vec3>& motor_tau_Nm;
   double ground_z_m;
+  bool has_foot_sensors;
   bool fallen;
   std::uint32_t segment;
   const controller::SolverFaults& faults;  // played on the solvers

@@ -9,8 +9,8 @@
 #include "app/episode/record.h"
 #include "app/episode/rows.h"
 #include "app/run/log_origin.h"
-#include "core/math/so3.h"
 #include "logs/format/cdr.h"
+#include "logs/read_rows.h"
 
 namespace scoria::app {
 namespace {
@@ -54,15 +54,13 @@ controller::SolverFaults ToFaults(const msg::ControllerInput& m) {
           static_cast<controller::SolverFault>(m.wbc_fault)};
 }
 
-RobotState TrueState(const logs::LogRow& row) {
-  RobotState s;
-  s.p_WB = ToVec3(row.p_WB_m);
-  s.R_WB = core::RotationFromRpy(ToVec3(row.rpy_rad));
-  s.v_WB = ToVec3(row.v_WB_mps);
-  s.w_WB = ToVec3(row.w_WB_radps);
-  s.q = Unflatten(row.q_rad);
-  s.qd = Unflatten(row.qd_radps);
-  return s;
+/// Whether two rows are equal in all that the first holds.
+bool Agrees(const logs::Row& logged, logs::Row again) {
+  const logs::RowGroups held = logs::GroupsOf(logged);
+  logs::ForEachGroup(again, [&]<class Group>(std::optional<Group>& group) {
+    if (!held[static_cast<std::size_t>(Group::kGroup)]) group.reset();
+  });
+  return again == logged;
 }
 
 /// One pass over a log.
@@ -72,10 +70,9 @@ class Replay {
       : scenario_(scenario), robot_(robot), changes_(ChangedControllers(scenario)) {}
 
   void Take(const logs::McapReader::Message& m) {
+    if (rows_.Add(m)) return;
     if (m.channel.topic == "/scoria/controller_start") {
       Start(logs::DecodeCdr<msg::ControllerStart>(m.data));
-    } else if (m.channel.topic == "/scoria/row") {
-      row_ = logs::DecodeCdr<logs::LogRow>(m.data);
     } else if (m.channel.topic == "/scoria/controller_input") {
       Step(logs::DecodeCdr<msg::ControllerInput>(m.data));
     } else if (m.channel.topic == "/scoria/event") {
@@ -87,6 +84,8 @@ class Replay {
     }
   }
 
+  [[nodiscard]] const logs::RowJoiner& rows() const { return rows_; }
+
   /// @param problem  what is wrong with the log, if anything.
   ReplayResult Finish(const std::string& problem) {
     if (result_.steps == 0) {
@@ -96,6 +95,9 @@ class Replay {
               ? "the log ends before the first controller input"
               : "the log holds no controller inputs from a start on; record it with log.keep=full");
     }
+    if (result_.rows == 0)
+      throw std::runtime_error((problem.empty() ? "" : problem + "; ") +
+                               "the log holds no estimates to compare with");
     result_.file_problem = problem;
     result_.logged = logged_.Finish();
     result_.replayed = replayed_.Finish();
@@ -120,25 +122,20 @@ class Replay {
     ++next_step_;
     ++result_.steps;
     const controller::ControlOutput& out = controller_->Step(ToFrame(m), ToCommand(m), ToFaults(m));
-    if (row_ && row_->step == m.step) Compare(out);
+    const logs::Row& logged = rows_.row();  // whole: a step's input is logged after its row
+    const bool comparable = logged.estimate && logged.episode && logged.episode->step == m.step;
+    if (comparable) Compare(logged, out);
   }
 
-  void Compare(const controller::ControlOutput& out) {
-    logs::LogRow again = *row_;
-    FillEstimate(out, TrueState(*row_), again);
-    logged_.AddRow(*row_);
+  void Compare(const logs::Row& logged, const controller::ControlOutput& out) {
+    logs::Row again = logged;
+    FillControl(out, robot_.config.has_foot_sensors, again);
+    logged_.AddRow(logged);
     replayed_.AddRow(again);
     ++result_.rows;
-    const bool same = again.est_p_WB_m == row_->est_p_WB_m &&
-                      again.est_v_WB_mps == row_->est_v_WB_mps &&
-                      again.est_rpy_rad == row_->est_rpy_rad && again.nis == row_->nis &&
-                      again.learned_mass_kg == row_->learned_mass_kg &&
-                      again.contact_source == row_->contact_source &&
-                      again.contact == row_->contact && again.est_f_F_W_N == row_->est_f_F_W_N &&
-                      out.qualities == row_->stage_quality && out.fallen_back == row_->fallen_back;
-    if (!same && result_.identical) {
+    if (!Agrees(logged, again) && result_.identical) {
       result_.identical = false;
-      result_.first_difference_s = row_->time_s;
+      result_.first_difference_s = logged.time_s;
     }
   }
 
@@ -148,7 +145,7 @@ class Replay {
   std::size_t next_change_ = 0;
   std::optional<controller::Controller> controller_;
   std::int64_t next_step_ = 0;
-  std::optional<logs::LogRow> row_;
+  logs::RowJoiner rows_{[](const logs::Row&) {}};
   analysis::EstimationAccumulator logged_, replayed_;
   ReplayResult result_;
 };
@@ -171,11 +168,15 @@ ReplayResult ReplayLog(const std::filesystem::path& log,
                     log.string()));
   const core::RobotDescription robot = RobotOf(origin);
   const auto replay = std::make_unique<Replay>(origin.scenario, robot);
-  const std::string problem =
-      logs::McapReader(log).ForEachMessage([&](const logs::McapReader::Message& m) {
-        replay->Take(m);
-        return true;
-      });
+  logs::McapReader reader(log);
+  if (const std::string other = logs::DescribeOtherLayout(reader); !other.empty())
+    throw std::runtime_error(fmt::format("{}: {}", log.string(), other));
+  std::string problem = reader.ForEachMessage([&](const logs::McapReader::Message& m) {
+    replay->Take(m);
+    return true;
+  });
+  if (const std::string rows = logs::DescribeRowProblems(reader, replay->rows()); !rows.empty())
+    problem += fmt::format("{}{}: {}", problem.empty() ? "" : "; ", log.string(), rows);
   return replay->Finish(problem);
 }
 

@@ -11,7 +11,6 @@
 #include "app/episode/function_observer.h"
 #include "app/episode/qp_recorder.h"
 #include "app/episode/record.h"
-#include "app/episode/rows.h"
 #include "app/episode/run_episode.h"
 #include "app/run/inputs.h"
 #include "app/run/result_json.h"
@@ -48,8 +47,8 @@ class ScenarioRun {
         robot_(core::LoadRobot(scenario.robot)),
         terrain_(terrains::MakeTerrain(scenario.terrain, scenario.seed, 0)),
         metrics_(scenario.gravity_mps2) {
-    metrics_rows_.on_row = [this](const StepRecord& record, const logs::LogRow& row) {
-      metrics_.AddRow(row, SolveTimesOf(record.control));
+    metrics_rows_.on_row = [this](const StepRecord&, const logs::Row& row) {
+      metrics_.AddRow(row);
     };
     progress_.on_step = [this](const StepRecord& record) {
       constexpr int kEvery = 250;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/episode/fall_monitor.h"
+#include "app/episode/fall_params.h"
 #include "app/episode/operator.h"
 #include "controller/controller.h"
 #include "core/robot/description.h"

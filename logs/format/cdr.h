@@ -3,8 +3,12 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -20,7 +24,8 @@
 ///
 /// with `static constexpr const char* kTypeName = "interfaces/msg/QuadModel"`, and that drives CDR
 /// encoding and decoding (ROS 2's wire format), the ros2msg schema text, and the listing of fields
-/// for comparisons.
+/// for comparisons. ROS has no optional fields: std::optional<T> is a bounded sequence, `T[<=1]`,
+/// and std::optional<std::array<T, N>> one of N items or none, `T[<=N]`.
 namespace scoria::logs {
 
 using Bytes = std::vector<std::byte>;
@@ -35,6 +40,10 @@ template <class T>
 struct IsStdVector : std::false_type {};
 template <class T>
 struct IsStdVector<std::vector<T>> : std::true_type {};
+template <class T>
+struct IsOptional : std::false_type {};
+template <class T>
+struct IsOptional<std::optional<T>> : std::true_type {};
 
 template <class T>
 constexpr const char* PrimitiveName() {
@@ -48,6 +57,13 @@ constexpr const char* PrimitiveName() {
   if constexpr (std::is_same_v<T, double>) return "float64";
   if constexpr (std::is_same_v<T, std::string>) return "string";
   return "";
+}
+
+/// Of the sequence that holds an optional value.
+template <class T>
+constexpr std::uint32_t SequenceLength() {
+  if constexpr (IsStdArray<T>::value) return std::tuple_size_v<T>;
+  return 1;
 }
 
 template <class T>
@@ -73,6 +89,10 @@ class CdrEncoder {
     } else if constexpr (cdr_detail::IsStdVector<T>::value) {
       cdr_ << static_cast<std::uint32_t>(value.size());
       for (auto& item : value) (*this)("", item);
+    } else if constexpr (cdr_detail::IsOptional<T>::value) {
+      using Value = typename T::value_type;
+      cdr_ << (value ? cdr_detail::SequenceLength<Value>() : 0u);
+      if (value) (*this)("", *value);
     } else {
       value.Serialize(*this);
     }
@@ -96,6 +116,15 @@ class CdrDecoder {
       cdr_ >> size;
       value.clear();
       for (std::uint32_t i = 0; i < size; ++i) (*this)("", value.emplace_back());
+    } else if constexpr (cdr_detail::IsOptional<T>::value) {
+      constexpr std::uint32_t kLength = cdr_detail::SequenceLength<typename T::value_type>();
+      std::uint32_t size = 0;
+      cdr_ >> size;
+      value.reset();
+      if (size == 0) return;
+      if (size != kLength)
+        throw std::runtime_error(fmt::format("a field of {} or no values has {}", kLength, size));
+      (*this)("", value.emplace());
     } else {
       value.Serialize(*this);
     }
@@ -137,6 +166,16 @@ class SchemaWriter {
     } else if constexpr (cdr_detail::IsStdVector<T>::value) {
       typename T::value_type item{};
       return FieldType(item) + "[]";
+    } else if constexpr (cdr_detail::IsOptional<T>::value) {
+      using Value = typename T::value_type;
+      constexpr std::uint32_t kLength = cdr_detail::SequenceLength<Value>();
+      if constexpr (cdr_detail::IsStdArray<Value>::value) {
+        typename Value::value_type item{};
+        return fmt::format("{}[<={}]", FieldType(item), kLength);
+      } else {
+        Value item{};
+        return fmt::format("{}[<={}]", FieldType(item), kLength);
+      }
     } else {
       const std::string type = cdr_detail::ShortTypeName(T::kTypeName);
       for (const auto& known : nested_) {
@@ -176,6 +215,12 @@ class FieldLister {
       fields_.emplace_back(path, fmt::format("{}", value));
     } else if constexpr (cdr_detail::IsStdArray<T>::value || cdr_detail::IsStdVector<T>::value) {
       for (std::size_t i = 0; i < value.size(); ++i) List(fmt::format("{}[{}]", path, i), value[i]);
+    } else if constexpr (cdr_detail::IsOptional<T>::value) {
+      if (value) {
+        List(path, *value);
+      } else {
+        fields_.emplace_back(path, "none");
+      }
     } else {
       const std::string outer = std::exchange(prefix_, path);
       value.Serialize(*this);
@@ -208,7 +253,8 @@ void EncodeCdr(Message& message, Bytes& out) {
   }
 }
 
-/// Errors: eprosima::fastcdr::exception::Exception if the bytes end too early.
+/// Errors: eprosima::fastcdr::exception::Exception if the bytes end too early; std::runtime_error
+/// if a sequence is longer than its bound.
 template <class Message>
 [[nodiscard]] Message DecodeCdr(std::span<const std::byte> bytes) {
   auto* data = const_cast<char*>(reinterpret_cast<const char*>(bytes.data()));

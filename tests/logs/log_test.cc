@@ -6,7 +6,6 @@
 
 #include "logs/format/mcap.h"
 #include "logs/messages/scoria.h"
-#include "logs/row.h"
 #include "tests/support/robots.h"
 
 namespace scoria::logs {
@@ -48,20 +47,19 @@ TEST(Cdr, LayoutFollowsTheRos2WireFormat) {
 }
 
 TEST(Cdr, EveryFieldSurvivesTheRoundTrip) {
-  LogRow row;
-  row.step = 12345678901;
-  row.q_rad[11] = -0.25;
-  row.contact = {true, false, true, true};
-  row.leg_mode[3] = 2;
-  row.segment = 77;
+  msg::ControllerInput input;
+  input.step = 12345678901;
+  input.q_rad[11] = -0.25;
+  input.pattern = 2;
+  input.wbc_fault = 3;
   Bytes bytes;
-  EncodeCdr(row, bytes);
-  LogRow back = DecodeCdr<LogRow>(bytes);
+  EncodeCdr(input, bytes);
+  auto back = DecodeCdr<msg::ControllerInput>(bytes);
   FieldLister a, b;
-  row.Serialize(a);
+  input.Serialize(a);
   back.Serialize(b);
   EXPECT_EQ(a.fields(), b.fields());
-  EXPECT_ANY_THROW((void)DecodeCdr<LogRow>(std::span(bytes).first(bytes.size() / 2)));
+  EXPECT_ANY_THROW((void)DecodeCdr<msg::ControllerInput>(std::span(bytes).first(bytes.size() / 2)));
 }
 
 TEST(Cdr, LongStringsFindRoom) {

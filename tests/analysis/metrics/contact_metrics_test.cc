@@ -8,6 +8,7 @@
 
 #include "analysis/metrics/estimation_metrics.h"
 #include "core/robot/contact.h"
+#include "tests/support/rows.h"
 
 namespace scoria::analysis {
 namespace {
@@ -20,14 +21,14 @@ struct Trot {
   [[nodiscard]] static bool Stance(long row) { return row >= 0 && (row / kHalf) % 2 == 1; }
 };
 
-using Words = std::function<void(long row, logs::LogRow&)>;
+using Words = std::function<void(long row, logs::Row&)>;
 ContactMetrics RunTrot(long rows, const Words& speak) {
   ContactAccumulator e;
   for (long i = 0; i < rows; ++i) {
-    logs::LogRow row;
-    row.operating = true;
+    logs::Row row = test::WholeRow();
+    row.episode->operating = true;
     row.time_s = kRow_s * static_cast<double>(i);
-    row.true_contact.fill(Trot::Stance(i));
+    row.true_contacts->contact.fill(Trot::Stance(i));
     speak(i, row);
     e.AddRow(row);
   }
@@ -35,11 +36,12 @@ ContactMetrics RunTrot(long rows, const Words& speak) {
 }
 
 TEST(Contact, DelaysAreMeasuredOnTheGridOfRows) {
-  const ContactMetrics m = RunTrot(20050, [](long i, logs::LogRow& row) {
-    row.contact_sensor.fill(Trot::Stance(i - 4));                       // 8 ms late
-    row.planned_stance.fill(Trot::Stance(i + 10));                      // 20 ms early
-    row.contact_observer.fill(Trot::Stance(i) || Trot::Stance(i - 3));  // lifts off 6 ms late
-    row.contact.fill(Trot::Stance(i));
+  const ContactMetrics m = RunTrot(20050, [](long i, logs::Row& row) {
+    row.contacts->sensor->contact.fill(Trot::Stance(i - 4));  // 8 ms late
+    row.plan->stance.fill(Trot::Stance(i + 10));              // 20 ms early
+    row.contacts->observer->contact.fill(Trot::Stance(i) ||
+                                         Trot::Stance(i - 3));  // lifts off 6 ms late
+    row.contacts->contact.fill(Trot::Stance(i));
   });
   const ContactQuality& sensor = m.of(ContactWord::kSensor);
   EXPECT_NEAR(sensor.touchdown.delays.Quantile(0.5), 0.008, 1e-12);
@@ -66,12 +68,12 @@ TEST(Contact, RowRateDoesNotMatter) {
     for (long i = 0; i < std::lround(20.02 / row_s); ++i) {
       const double t = row_s * static_cast<double>(i);
       const auto stance = [](double at) { return at >= 0.0 && std::fmod(at, 0.4) >= 0.2 - 1e-9; };
-      logs::LogRow row;
-      row.operating = true;
+      logs::Row row = test::WholeRow();
+      row.episode->operating = true;
       row.time_s = t;
       const bool scuff = std::fmod(t, 0.4) > 0.1 - 1e-9 && std::fmod(t, 0.4) < 0.108 - 1e-9;
-      row.true_contact.fill(stance(t) || scuff);
-      row.contact.fill(stance(t - 0.012) || (scuff && row_s > 0.0));
+      row.true_contacts->contact.fill(stance(t) || scuff);
+      row.contacts->contact.fill(stance(t - 0.012) || (scuff && row_s > 0.0));
       e.AddRow(row);
     }
     return e.metrics().of(ContactWord::kCounted);
@@ -86,12 +88,13 @@ TEST(Contact, RowRateDoesNotMatter) {
 }
 
 TEST(Contact, MissedAndFalseTouchdownsAreCounted) {
-  const ContactMetrics m = RunTrot(20050, [](long i, logs::LogRow& row) {
+  const ContactMetrics m = RunTrot(20050, [](long i, logs::Row& row) {
     const long stride = i / 200, at = i % 200;
     const bool deaf = stride % 4 == 0, hears_things = stride % 5 == 0 && at >= 40 && at < 46;
-    row.contact.fill((Trot::Stance(i) && !deaf) || hears_things);
-    row.contact_sensor.fill(true);  // never notices a swing
-    row.contact_observer.fill(Trot::Stance(i) && !(at >= 150 && at < 153));  // flickers in stance
+    row.contacts->contact.fill((Trot::Stance(i) && !deaf) || hears_things);
+    row.contacts->sensor->contact.fill(true);  // never notices a swing
+    row.contacts->observer->contact.fill(Trot::Stance(i) &&
+                                         !(at >= 150 && at < 153));  // flickers in stance
   });
   const ContactQuality& counted = m.of(ContactWord::kCounted);
   EXPECT_EQ(counted.touchdown.missed, 4u * 25u);
@@ -108,11 +111,11 @@ TEST(Contact, MissedAndFalseTouchdownsAreCounted) {
 }
 
 TEST(Contact, ScuffsAreNeitherTouchdownsNorFalse) {
-  const ContactMetrics m = RunTrot(4050, [](long i, logs::LogRow& row) {
+  const ContactMetrics m = RunTrot(4050, [](long i, logs::Row& row) {
     const long at = i % 200;
-    if (at >= 50 && at < 54) row.true_contact.fill(true);     // 8 ms in swing
-    if (at >= 150 && at < 154) row.true_contact.fill(false);  // a bounce in stance
-    row.contact = row.true_contact;
+    if (at >= 50 && at < 54) row.true_contacts->contact.fill(true);     // 8 ms in swing
+    if (at >= 150 && at < 154) row.true_contacts->contact.fill(false);  // a bounce in stance
+    row.contacts->contact = row.true_contacts->contact;
   });
   const ContactQuality& counted = m.of(ContactWord::kCounted);
   EXPECT_EQ(counted.touchdown.true_edges(), 4u * 20u);
@@ -124,11 +127,11 @@ TEST(Contact, ScuffsAreNeitherTouchdownsNorFalse) {
 TEST(Contact, AreaUnderTheCurveIsThatOfTheOrder) {
   // Stance shows 10 or 30 counts by turns, swing 0 or 10: of four pairs three are in order and one
   // is tied.
-  const ContactMetrics m = RunTrot(20050, [](long i, logs::LogRow& row) {
+  const ContactMetrics m = RunTrot(20050, [](long i, logs::Row& row) {
     const bool even = i % 2 == 0;
-    row.sensor_counts.fill(Trot::Stance(i) ? (even ? 10.0 : 30.0) : (even ? 0.0 : 10.0));
-    row.observer_probability.fill(Trot::Stance(i) ? 1.0 : 0.0);
-    row.contact_sensor.fill(Trot::Stance(i));
+    row.contacts->sensor->counts.fill(Trot::Stance(i) ? (even ? 10.0 : 30.0) : (even ? 0.0 : 10.0));
+    row.contacts->observer->probability.fill(Trot::Stance(i) ? 1.0 : 0.0);
+    row.contacts->sensor->contact.fill(Trot::Stance(i));
   });
   EXPECT_NEAR(m.sensor.Area(), 0.875, 1e-9);
   EXPECT_NEAR(m.observer.Area(), 1.0, 1e-12);
@@ -141,11 +144,11 @@ TEST(Contact, AreaUnderTheCurveIsThatOfTheOrder) {
 }
 
 TEST(Contact, DistrustAndSourcesAreCounted) {
-  const ContactMetrics m = RunTrot(1000, [](long i, logs::LogRow& row) {
-    row.sensor_healthy.fill(true);
-    row.sensor_healthy[2] = i < 400 || i >= 600;
-    row.contact_source.fill(static_cast<std::uint8_t>(ContactSource::kSensor));
-    row.contact_source[1] = static_cast<std::uint8_t>(ContactSource::kObserver);
+  const ContactMetrics m = RunTrot(1000, [](long i, logs::Row& row) {
+    row.contacts->sensor->healthy.fill(true);
+    row.contacts->sensor->healthy[2] = i < 400 || i >= 600;
+    row.contacts->source->fill(static_cast<std::uint8_t>(ContactSource::kSensor));
+    (*row.contacts->source)[1] = static_cast<std::uint8_t>(ContactSource::kObserver);
   });
   EXPECT_EQ(m.leg_rows, 4000u);
   EXPECT_EQ(m.distrusted_rows, 200u);
@@ -157,12 +160,12 @@ TEST(Contact, DistrustAndSourcesAreCounted) {
 TEST(Contact, PlacementsBreakTheMatching) {
   EstimationAccumulator e;
   for (long i = 0; i < 400; ++i) {
-    logs::LogRow row;
-    row.operating = true;
+    logs::Row row = test::WholeRow();
+    row.episode->operating = true;
     row.time_s = kRow_s * static_cast<double>(i);
-    row.segment = i < 200 ? 1 : 2;
-    row.true_contact.fill(i >= 200);  // set on its feet: no touchdown
-    row.contact.fill(i >= 220);
+    row.episode->segment = i < 200 ? 1 : 2;
+    row.true_contacts->contact.fill(i >= 200);  // set on its feet: no touchdown
+    row.contacts->contact.fill(i >= 220);
     e.AddRow(row);
   }
   const ContactQuality counted = e.Finish().contact.of(ContactWord::kCounted);

@@ -9,6 +9,7 @@
 
 #include "analysis/metrics/metrics.h"
 #include "tests/support/allocation_guard.h"
+#include "tests/support/rows.h"
 
 namespace scoria::analysis {
 namespace {
@@ -19,41 +20,50 @@ constexpr double kPerMetre = M_PI / 180.0;  // rad, one degree
 /// A walk along +x at 0.5 m/s with a perfect estimate, to be spoiled row by row.
 class Walk {
  public:
-  using Spoil = std::function<void(logs::LogRow&, double x_m)>;
+  using Spoil = std::function<void(logs::Row&, double x_m)>;
   Walk() {
-    row_.operating = true;
-    row_.segment = 1;
-    row_.p_WB_m = {3.0, -2.0, 0.3};
-    row_.v_WB_mps = {0.5, 0.0, 0.0};
-    start_x_m_ = row_.p_WB_m[0];
+    row_.episode->operating = true;
+    row_.episode->segment = 1;
+    row_.truth->p_WB_m = {3.0, -2.0, 0.3};
+    row_.truth->v_WB_mps = {0.5, 0.0, 0.0};
+    start_x_m_ = row_.truth->p_WB_m[0];
   }
   void Run(EstimationAccumulator& e, double metres, const Spoil& spoil) {
     for (long i = std::lround(metres / 0.001); i > 0; --i) {
-      logs::LogRow row = row_;
-      row.est_p_WB_m = row.p_WB_m;
-      row.est_v_WB_mps = row.v_WB_mps;
-      row.est_rpy_rad = row.rpy_rad;
-      spoil(row, row_.p_WB_m[0] - start_x_m_);
+      logs::Row row = row_;
+      row.estimate->p_WB_m = row.truth->p_WB_m;
+      row.estimate->v_WB_mps = row.truth->v_WB_mps;
+      row.estimate->rpy_rad = row.truth->rpy_rad;
+      spoil(row, row_.truth->p_WB_m[0] - start_x_m_);
       e.AddRow(row);
       row_.time_s += kRow_s;
-      row_.p_WB_m[0] += 0.001;
+      row_.truth->p_WB_m[0] += 0.001;
     }
   }
   void Place() {
-    ++row_.segment;
-    row_.fallen = false;
-    start_x_m_ = row_.p_WB_m[0];
+    ++row_.episode->segment;
+    row_.episode->fallen = false;
+    start_x_m_ = row_.truth->p_WB_m[0];
   }
-  logs::LogRow row_;
+  logs::Row row_ = test::WholeRow();
 
  private:
   double start_x_m_ = 0.0;
 };
 
-void DriftTwoPercent(logs::LogRow& row, double x_m) {
-  row.est_p_WB_m[0] += 0.012 * x_m;
-  row.est_p_WB_m[1] -= 0.016 * x_m;
-  row.est_p_WB_m[2] -= 0.005 * x_m;
+/// A covariance that knows the speed to the side to `sigma_mps`, and nothing else.
+std::array<double, 15> CovarianceOfSideways(double sigma_mps) {
+  constexpr double kUnknown = 1e12;
+  std::array<double, 15> P{};
+  for (const std::size_t diagonal : {0, 2, 5, 9, 14}) P[diagonal] = kUnknown;
+  P[9] = sigma_mps * sigma_mps;
+  return P;
+}
+
+void DriftTwoPercent(logs::Row& row, double x_m) {
+  row.estimate->p_WB_m[0] += 0.012 * x_m;
+  row.estimate->p_WB_m[1] -= 0.016 * x_m;
+  row.estimate->p_WB_m[2] -= 0.005 * x_m;
 }
 
 TEST(Estimation, DriftIsAShareOfTheDistance) {
@@ -72,9 +82,9 @@ TEST(Estimation, DriftIsAShareOfTheDistance) {
 TEST(Estimation, OffsetsOfTheStartAreNoDrift) {
   EstimationAccumulator e;
   Walk walk;
-  walk.Run(e, 25.0, [](logs::LogRow& row, double x_m) {
-    row.est_rpy_rad[2] = 0.3;
-    row.est_p_WB_m = {7.0 + std::cos(0.3) * x_m, 1.0 + std::sin(0.3) * x_m, 5.0};
+  walk.Run(e, 25.0, [](logs::Row& row, double x_m) {
+    row.estimate->rpy_rad[2] = 0.3;
+    row.estimate->p_WB_m = {7.0 + std::cos(0.3) * x_m, 1.0 + std::sin(0.3) * x_m, 5.0};
   });
   const EstimationMetrics m = e.Finish();
   ASSERT_EQ(m.segments.size(), 1u);
@@ -101,10 +111,10 @@ TEST(Estimation, RelativeErrorsOfAYawDriftAreThoseOfAnArc) {
   constexpr double k = 1.0 * kPerMetre;
   EstimationAccumulator e;
   Walk walk;
-  walk.Run(e, 60.0, [](logs::LogRow& row, double x_m) {
-    row.est_rpy_rad[2] = k * x_m;
-    row.est_p_WB_m[0] = std::sin(k * x_m) / k;
-    row.est_p_WB_m[1] = (1.0 - std::cos(k * x_m)) / k;
+  walk.Run(e, 60.0, [](logs::Row& row, double x_m) {
+    row.estimate->rpy_rad[2] = k * x_m;
+    row.estimate->p_WB_m[0] = std::sin(k * x_m) / k;
+    row.estimate->p_WB_m[1] = (1.0 - std::cos(k * x_m)) / k;
   });
   const EstimationMetrics m = e.Finish();
   const auto expected = [](double length_m) {
@@ -124,11 +134,11 @@ TEST(Estimation, SegmentsEndAtPlacementsAndFalls) {
   walk.Place();  // stuck, set on
   walk.Run(e, 10.0, DriftTwoPercent);
   walk.Place();
-  walk.Run(e, 30.0, [](logs::LogRow& row, double x_m) {
-    row.est_p_WB_m[1] += 0.01 * x_m + (x_m > 29.6 ? 5.0 : 0.0);  // lost while tumbling
+  walk.Run(e, 30.0, [](logs::Row& row, double x_m) {
+    row.estimate->p_WB_m[1] += 0.01 * x_m + (x_m > 29.6 ? 5.0 : 0.0);  // lost while tumbling
   });
-  walk.row_.fallen = true;
-  walk.Run(e, 0.2, [](logs::LogRow&, double) {});
+  walk.row_.episode->fallen = true;
+  walk.Run(e, 0.2, [](logs::Row&, double) {});
   walk.Place();
   walk.Run(e, 0.6, DriftTwoPercent);
   const EstimationMetrics m = e.Finish();
@@ -159,22 +169,22 @@ TEST(Estimation, ErrorsAndConsistencyAreMeans) {
   EstimationAccumulator e;
   Walk walk;
   long i = 0;
-  const auto spoil = [&i](logs::LogRow& row, double) {
+  const auto spoil = [&i](logs::Row& row, double) {
     const bool even = i++ % 2 == 0;
-    row.est_v_WB_mps[1] += 0.03;
-    row.est_rpy_rad[0] += 0.01;
-    row.est_rpy_rad[1] += even ? 0.02 : -0.02;
-    row.nees = even ? 4.0 : 8.0;
-    row.nis = even ? 9.0 : 0.0;
-    row.nis_dof = even ? 6 : 0;
-    row.true_contact = {true, true, false, false};
-    row.f_F_W_N[2] = row.f_F_W_N[5] = 70.0;
-    row.est_f_F_W_N[2] = row.est_f_F_W_N[5] = 76.0;
-    row.est_f_F_W_N[8] = row.est_f_F_W_N[11] = -3.0;
+    row.estimate->v_WB_mps[1] += 0.03;
+    row.estimate->rpy_rad[0] += 0.01;
+    row.estimate->rpy_rad[1] += even ? 0.02 : -0.02;
+    row.estimate->P_tilt_v = CovarianceOfSideways(even ? 0.03 / 2.0 : 0.03 / std::sqrt(8.0));
+    if (even) row.estimate->innovation = {9.0, 6};
+    row.true_contacts->contact = {true, true, false, false};
+    row.true_contacts->f_F_W_N[2] = row.true_contacts->f_F_W_N[5] = 70.0;
+    row.contacts->f_F_W_N.value()[2] = row.contacts->f_F_W_N.value()[5] = 76.0;
+    row.contacts->f_F_W_N.value()[8] = row.contacts->f_F_W_N.value()[11] = -3.0;
   };
   walk.Run(e, 2.0, spoil);
-  walk.row_.fallen = true;
-  walk.Run(e, 1.0, [](logs::LogRow& row, double) { row.nees = 1e6; });
+  walk.row_.episode->fallen = true;
+  walk.Run(e, 1.0,
+           [](logs::Row& row, double) { row.estimate->P_tilt_v = CovarianceOfSideways(1e-9); });
   const EstimationMetrics m = e.Finish();
   EXPECT_NEAR(m.nees_ratio, 6.0 / 5.0, 1e-12);
   EXPECT_EQ(m.nees_rows, 2000u);
@@ -191,9 +201,9 @@ TEST(Estimation, ErrorsAndConsistencyAreMeans) {
 TEST(Estimation, YawErrorIsNoErrorOfBodyVelocity) {
   EstimationAccumulator e;
   Walk walk;
-  walk.Run(e, 2.0, [](logs::LogRow& row, double) {
-    row.est_rpy_rad[2] = 0.5;
-    row.est_v_WB_mps = {0.5 * std::cos(0.5), 0.5 * std::sin(0.5), 0.0};
+  walk.Run(e, 2.0, [](logs::Row& row, double) {
+    row.estimate->rpy_rad[2] = 0.5;
+    row.estimate->v_WB_mps = {0.5 * std::cos(0.5), 0.5 * std::sin(0.5), 0.0};
   });
   EXPECT_NEAR(e.Finish().velocity_rmse_mps, 0.0, 1e-9);
 }
@@ -201,11 +211,9 @@ TEST(Estimation, YawErrorIsNoErrorOfBodyVelocity) {
 TEST(Estimation, TheTruthItselfIsNoEstimate) {
   EstimationAccumulator e, none;
   Walk walk, other;
-  walk.Run(e, 3.0, [](logs::LogRow&, double) {});
+  walk.Run(e, 3.0, [](logs::Row&, double) {});
   EXPECT_FALSE(e.Finish().present);
-  other.Run(none, 3.0, [](logs::LogRow& row, double) {
-    row.est_p_WB_m = row.est_v_WB_mps = row.est_rpy_rad = {};
-  });
+  other.Run(none, 3.0, [](logs::Row& row, double) { row.estimate.reset(); });
   const EstimationMetrics m = none.Finish();
   EXPECT_FALSE(m.present);
   EXPECT_EQ(m.rows, 0u);
@@ -214,10 +222,11 @@ TEST(Estimation, TheTruthItselfIsNoEstimate) {
 TEST(Estimation, EpisodesAddUp) {
   EstimationAccumulator whole, first, second;
   Walk walk, one, two;
-  const Walk::Spoil other = [](logs::LogRow& row, double x_m) {
-    row.est_p_WB_m[1] += 0.1 * x_m;
-    row.est_rpy_rad[0] += 0.05;
-    row.nees = 7.0;
+  const Walk::Spoil other = [](logs::Row& row, double x_m) {
+    row.estimate->p_WB_m[1] += 0.1 * x_m;
+    row.estimate->rpy_rad[0] += 0.05;
+    row.estimate->v_WB_mps[1] += 0.1;
+    row.estimate->P_tilt_v = CovarianceOfSideways(0.04);
   };
   walk.Run(whole, 30.0, DriftTwoPercent);
   walk.Place();
@@ -235,50 +244,51 @@ TEST(Estimation, EpisodesAddUp) {
 }
 
 TEST(Estimation, HeightAndPointsOfTheEstimatorAreBroughtBack) {
-  logs::LogRow row;
-  EXPECT_EQ(HeightDrift(row), 0.0);
-  row.p_WB_m = {1.0, 2.0, 0.30};
-  EXPECT_EQ(HeightDrift(row), 0.0);  // no estimate
-  row.est_p_WB_m = {1.5, 2.0, 0.25};
-  row.est_rpy_rad[2] = M_PI / 2.0;
-  EXPECT_NEAR(HeightDrift(row), -0.05, 1e-12);
-  const Vec3 p = FromEstimatorFrame(row, {1.5, 2.2, 0.0});  // 0.2 m ahead of the estimated trunk
+  logs::Row row;
+  row.truth = {.p_WB_m = {1.0, 2.0, 0.30}};
+  EXPECT_FALSE(HeightDrift(row).has_value());
+  EXPECT_FALSE(FromEstimatorFrame(row, Vec3::Zero()).has_value());
+  row.estimate.emplace();
+  row.estimate->p_WB_m = {1.5, 2.0, 0.25};
+  row.estimate->rpy_rad[2] = M_PI / 2.0;
+  EXPECT_NEAR(HeightDrift(row).value(), -0.05, 1e-12);
+  const Vec3 p =
+      FromEstimatorFrame(row, {1.5, 2.2, 0.0}).value();  // 0.2 m ahead of the estimated trunk
   EXPECT_NEAR((p - Vec3(1.2, 2.0, 0.05)).norm(), 0.0, 1e-12);
 }
 
 TEST(Estimation, DriftIsNotChargedAsTrackingError) {
   MetricsAccumulator m(9.81);
-  logs::LogRow row;
-  row.operating = true;
-  row.cmd_v_x_mps = 0.5;
+  logs::Row row = test::WholeRow();
+  row.episode->operating = true;
+  row.command->v_x_mps = 0.5;
   for (int i = 0; i < 5000; ++i) {
     row.time_s = kRow_s * i;
-    row.p_WB_m = {0.5 * row.time_s, 0.0, 0.30};
-    row.est_p_WB_m = {0.5 * row.time_s, 0.0, 0.30 - 0.02 * row.time_s};
-    row.com_z_m = 0.29;
-    row.ref_p_WC_m[2] = 0.28 - 0.02 * row.time_s;  // the estimator's frame sinks
-    m.AddRow(row, {});
+    row.truth->p_WB_m = {0.5 * row.time_s, 0.0, 0.30};
+    row.estimate->p_WB_m = {0.5 * row.time_s, 0.0, 0.30 - 0.02 * row.time_s};
+    row.true_mass->p_WC_z_m = 0.29;
+    row.reference->p_WC_m[2] = 0.28 - 0.02 * row.time_s;  // the estimator's frame sinks
+    m.AddRow(row);
   }
   const EpisodeMetrics r = m.Finish();
   EXPECT_NEAR(r.tracking.height_rmse_m, 0.01, 1e-9);
   EXPECT_TRUE(r.estimation.present);
 }
 
-logs::LogRow SpoiltRow(long i) {
+logs::Row SpoiltRow(long i) {
   const auto stance = [](long row) { return row >= 0 && (row / 100) % 2 == 1; };
-  logs::LogRow row;
-  row.operating = true;
+  logs::Row row = test::WholeRow();
+  row.episode->operating = true;
   row.time_s = kRow_s * static_cast<double>(i);
-  row.p_WB_m = {0.001 * static_cast<double>(i), 0.0, 0.3};
-  row.est_p_WB_m = {0.00102 * static_cast<double>(i), 0.0, 0.3};
-  row.nees = 5.0;
-  row.nis = 6.0;
-  row.nis_dof = 6;
-  row.true_contact.fill(stance(i));
-  row.contact_sensor.fill(stance(i - 3));
-  row.contact = row.contact_sensor;
-  row.sensor_counts.fill(stance(i) ? 50.0 : static_cast<double>(i % 7));
-  row.observer_probability.fill(stance(i) ? 0.9 : 0.2);
+  row.truth->p_WB_m = {0.001 * static_cast<double>(i), 0.0, 0.3};
+  row.estimate->p_WB_m = {0.00102 * static_cast<double>(i), 0.0, 0.3};
+  row.estimate->P_tilt_v = CovarianceOfSideways(0.01);
+  row.estimate->innovation = {6.0, 6};
+  row.true_contacts->contact.fill(stance(i));
+  row.contacts->sensor->contact.fill(stance(i - 3));
+  row.contacts->contact = row.contacts->sensor->contact;
+  row.contacts->sensor->counts.fill(stance(i) ? 50.0 : static_cast<double>(i % 7));
+  row.contacts->observer->probability.fill(stance(i) ? 0.9 : 0.2);
   return row;
 }
 

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/rows.h"
+
 namespace scoria::analysis {
 namespace {
 
@@ -13,26 +15,27 @@ namespace {
 class Walk {
  public:
   explicit Walk(double v_mps) : v_(v_mps) {
-    row_.operating = true;
-    row_.total_mass_kg = 10.0;
-    row_.cmd_v_x_mps = 0.5;
-    row_.period_s = 0.5;
-    row_.segment = 1;
-    row_.com_z_m = 0.31;
-    row_.ref_p_WC_m = {0.0, 0.0, 0.30};
+    row_.episode->operating = true;
+    row_.solve_times = {1e-4, 1e-5};
+    row_.true_mass->mass_kg = 10.0;
+    row_.command->v_x_mps = 0.5;
+    row_.plan->period_s = 0.5;
+    row_.episode->segment = 1;
+    row_.true_mass->p_WC_z_m = 0.31;
+    row_.reference->p_WC_m = {0.0, 0.0, 0.30};
   }
   void Run(MetricsAccumulator& m, double seconds) {
     for (int i = 0; i < std::lround(seconds * 500); ++i) {
-      m.AddRow(row_, {1e-4, 1e-5});
+      m.AddRow(row_);
       row_.time_s += 0.002;
-      row_.p_WB_m[0] += 0.002 * v_;
-      row_.v_WB_mps[0] = v_;
-      row_.mech_abs_J += 0.002 * 49.05;  // W
-      row_.mech_pos_J += 0.002 * 20.0;
-      row_.electrical_J += 0.002 * 100.0;
+      row_.truth->p_WB_m[0] += 0.002 * v_;
+      row_.truth->v_WB_mps[0] = v_;
+      row_.energy->mech_abs_J += 0.002 * 49.05;  // W
+      row_.energy->mech_pos_J += 0.002 * 20.0;
+      row_.energy->electrical_J += 0.002 * 100.0;
     }
   }
-  logs::LogRow row_;
+  logs::Row row_ = test::WholeRow();
 
  private:
   double v_;
@@ -58,7 +61,7 @@ TEST(Metrics, CostOfTransportFollowsTheMassOverTheWay) {
   MetricsAccumulator m(9.81);
   Walk walk(0.5);
   walk.Run(m, 20.0);
-  walk.row_.total_mass_kg = 15.0;
+  walk.row_.true_mass->mass_kg = 15.0;
   walk.Run(m, 20.0);
   const EpisodeMetrics r = m.Finish();
   EXPECT_NEAR(r.cot_mech_abs, 49.05 / (12.5 * 9.81 * 0.5), 0.01);
@@ -71,11 +74,11 @@ TEST(Metrics, PlacementsAndFallsAreNotWalking) {
   MetricsAccumulator m(9.81);
   Walk walk(0.5);
   walk.Run(m, 10.0);
-  walk.row_.fallen = true;
+  walk.row_.episode->fallen = true;
   walk.Run(m, 1.0);
-  walk.row_.fallen = false;
-  walk.row_.segment = 2;
-  walk.row_.p_WB_m[0] += 100.0;  // carried away
+  walk.row_.episode->fallen = false;
+  walk.row_.episode->segment = 2;
+  walk.row_.truth->p_WB_m[0] += 100.0;  // carried away
   walk.Run(m, 10.0);
   const EpisodeMetrics r = m.Finish();
   EXPECT_NEAR(r.distance_m, 10.0, 0.6);
@@ -88,16 +91,16 @@ TEST(Metrics, OnlySteadyWindowsAreKept) {
   MetricsAccumulator m(9.81);
   Walk walk(0.5);
   walk.Run(m, 8.5);  // settles for 3 s, one window, and falls 0.5 s after it
-  walk.row_.fallen = true;
+  walk.row_.episode->fallen = true;
   walk.Run(m, 1.0);
-  walk.row_.fallen = false;
-  walk.row_.segment = 2;
+  walk.row_.episode->fallen = false;
+  walk.row_.episode->segment = 2;
   walk.Run(m, 5.0);
-  walk.row_.fallen_back[4] = true;  // in the first window of this placement
+  walk.row_.supervision->fallen_back[4] = true;  // in the first window of this placement
   walk.Run(m, 1.0);
-  walk.row_.fallen_back[4] = false;
+  walk.row_.supervision->fallen_back[4] = false;
   walk.Run(m, 8.1);  // settles anew, one window
-  walk.row_.segment = 3;
+  walk.row_.episode->segment = 3;
   Walk slow(0.2);
   slow.row_ = walk.row_;
   slow.Run(m, 20.0);
@@ -119,9 +122,9 @@ TEST(Metrics, SpeedRippleWithinAStrideIsNoError) {
   Walk walk(0.5);
   for (int i = 0; i < 5000; ++i) {
     walk.row_.time_s = 0.002 * i;
-    walk.row_.p_WB_m[0] = 0.5 * walk.row_.time_s;
-    walk.row_.v_WB_mps[0] = 0.5 + 0.1 * std::sin(2.0 * M_PI * walk.row_.time_s / 0.25);
-    m.AddRow(walk.row_, {});
+    walk.row_.truth->p_WB_m[0] = 0.5 * walk.row_.time_s;
+    walk.row_.truth->v_WB_mps[0] = 0.5 + 0.1 * std::sin(2.0 * M_PI * walk.row_.time_s / 0.25);
+    m.AddRow(walk.row_);
   }
   EXPECT_LT(m.Finish().tracking.velocity_rmse_mps, 2e-3);
 }
@@ -129,7 +132,7 @@ TEST(Metrics, SpeedRippleWithinAStrideIsNoError) {
 TEST(Metrics, StandingDriftIsTheLargestDistance) {
   MetricsAccumulator m(9.81);
   Walk walk(0.001);
-  walk.row_.cmd_v_x_mps = 0.0;
+  walk.row_.command->v_x_mps = 0.0;
   walk.Run(m, 13.0);
   EXPECT_NEAR(m.Finish().tracking.drift_m, 0.01, 2e-4);
 }

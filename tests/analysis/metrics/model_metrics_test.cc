@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/metrics/metrics.h"
+#include "tests/support/rows.h"
 
 namespace scoria::analysis {
 namespace {
@@ -18,42 +19,42 @@ constexpr double kRobot_kg = 15.0;
 /// A robot at work whose adapter knows the true mass, to be spoiled row by row. Time is the index.
 class Work {
  public:
-  using Spoil = std::function<void(logs::LogRow&)>;
+  using Spoil = std::function<void(logs::Row&)>;
   Work() {
-    row_.operating = true;
-    row_.learned_tared = true;
-    row_.total_mass_kg = kRobot_kg;
-    row_.p_BC_m = {0.01, -0.02, 0.0};
+    row_.episode->operating = true;
+    row_.model->learned->tared = true;
+    row_.true_mass->mass_kg = kRobot_kg;
+    row_.true_mass->p_BC_m = {0.01, -0.02, 0.0};
   }
   void Run(ModelAccumulator& m, double time_s, const Spoil& spoil) {
     for (long i = std::lround(time_s / kRow_s); i > 0; --i) {
       row_.time_s = kRow_s * static_cast<double>(index_++);
-      logs::LogRow row = row_;
-      row.learned_mass_kg = row.used_mass_kg = row.total_mass_kg;
-      row.learned_p_BC_m = row.p_BC_m;
+      logs::Row row = row_;
+      row.model->learned->mass_kg = row.model->used_mass_kg = row.true_mass->mass_kg;
+      row.model->learned->p_BC_m = row.true_mass->p_BC_m;
       spoil(row);
       m.AddRow(row);
     }
   }
-  logs::LogRow row_;
+  logs::Row row_ = test::WholeRow();
 
  private:
   long index_ = 0;
 };
 
-void Leave(logs::LogRow&) {}
+void Leave(logs::Row&) {}
 
 TEST(Model, BiasAndRmseAreOfTheSettledPart) {
   ModelAccumulator m;
   Work work;
   work.Run(m, 10.0, Leave);
-  work.row_.total_mass_kg = 20.0;
+  work.row_.true_mass->mass_kg = 20.0;
   long i = 0;
-  work.Run(m, 10.0, [&i](logs::LogRow& row) {
-    row.learned_mass_kg += row.time_s < 12.0 ? -5.0 : (i++ % 2 == 0 ? 0.3 : -0.1);
-    row.used_mass_kg -= row.time_s < 12.0 ? 5.0 : 0.5;
-    row.learned_p_BC_m[0] += 0.004;
-    row.learned_p_BC_m[1] -= 0.003;
+  work.Run(m, 10.0, [&i](logs::Row& row) {
+    row.model->learned->mass_kg += row.time_s < 12.0 ? -5.0 : (i++ % 2 == 0 ? 0.3 : -0.1);
+    row.model->used_mass_kg -= row.time_s < 12.0 ? 5.0 : 0.5;
+    row.model->learned->p_BC_m[0] += 0.004;
+    row.model->learned->p_BC_m[1] -= 0.003;
   });
   const ModelMetrics metrics = m.Finish();
   EXPECT_TRUE(metrics.present);
@@ -79,12 +80,13 @@ TEST(Model, SettlesWhenItWasLastOutsideTheMargin) {
   ModelAccumulator m;
   Work work;
   work.Run(m, 5.0, Leave);
-  work.row_.total_mass_kg = 16.0;
-  work.Run(m, 5.0, [](logs::LogRow& row) {
+  work.row_.true_mass->mass_kg = 16.0;
+  work.Run(m, 5.0, [](logs::Row& row) {
     const double since_s = row.time_s - 5.0;
     // Inside for a while in between: that is not settled.
     const bool outside = since_s < 0.4 || (since_s > 0.999 && since_s < 1.201);
-    row.learned_mass_kg += outside ? -0.26 : -0.24;  // the margin is 0.25 kg for steps up to 2.5 kg
+    row.model->learned->mass_kg +=
+        outside ? -0.26 : -0.24;  // the margin is 0.25 kg for steps up to 2.5 kg
   });
   const ModelMetrics metrics = m.Finish();
   ASSERT_EQ(metrics.intervals.size(), 2u);
@@ -97,9 +99,10 @@ TEST(Model, MarginIsATenthOfALargeStep) {
   ModelAccumulator m;
   Work work;
   work.Run(m, 1.0, Leave);
-  work.row_.total_mass_kg = 25.0;
-  work.Run(m, 5.0,
-           [](logs::LogRow& row) { row.learned_mass_kg += row.time_s < 1.999 ? -1.01 : -0.99; });
+  work.row_.true_mass->mass_kg = 25.0;
+  work.Run(m, 5.0, [](logs::Row& row) {
+    row.model->learned->mass_kg += row.time_s < 1.999 ? -1.01 : -0.99;
+  });
   const ModelMetrics metrics = m.Finish();
   ASSERT_EQ(metrics.intervals.size(), 2u);
   EXPECT_NEAR(metrics.intervals[1].settling_s, 1.0 - kRow_s, 1e-9);
@@ -110,12 +113,12 @@ TEST(Model, NeverSettledCountsWithItsWholeDuration) {
   ModelAccumulator m;
   Work work;
   work.Run(m, 2.0, Leave);
-  work.row_.total_mass_kg = 20.0;
-  work.Run(m, 4.0, [](logs::LogRow& row) {
-    row.learned_mass_kg = row.time_s > 4.0 && row.time_s < 5.0 ? 20.0 : kRobot_kg;
-    row.used_mass_kg = kRobot_kg;
+  work.row_.true_mass->mass_kg = 20.0;
+  work.Run(m, 4.0, [](logs::Row& row) {
+    row.model->learned->mass_kg = row.time_s > 4.0 && row.time_s < 5.0 ? 20.0 : kRobot_kg;
+    row.model->used_mass_kg = kRobot_kg;
   });
-  work.row_.total_mass_kg = kRobot_kg;
+  work.row_.true_mass->mass_kg = kRobot_kg;
   work.Run(m, 1.0, Leave);
   const ModelMetrics metrics = m.Finish();
   ASSERT_EQ(metrics.intervals.size(), 3u);
@@ -129,10 +132,11 @@ TEST(Model, NeverSettledCountsWithItsWholeDuration) {
 TEST(Model, RemovalIsANegativeStep) {
   ModelAccumulator m;
   Work work;
-  work.row_.total_mass_kg = 20.0;
+  work.row_.true_mass->mass_kg = 20.0;
   work.Run(m, 2.0, Leave);
-  work.row_.total_mass_kg = kRobot_kg;
-  work.Run(m, 4.0, [](logs::LogRow& row) { row.learned_mass_kg += row.time_s < 3.0 ? 5.0 : 0.4; });
+  work.row_.true_mass->mass_kg = kRobot_kg;
+  work.Run(m, 4.0,
+           [](logs::Row& row) { row.model->learned->mass_kg += row.time_s < 3.0 ? 5.0 : 0.4; });
   const ModelMetrics metrics = m.Finish();
   ASSERT_EQ(metrics.intervals.size(), 2u);
   EXPECT_EQ(metrics.intervals[1].step_kg, -5.0);
@@ -145,14 +149,14 @@ TEST(Model, LateBiasCountsWhetherSettledOrNot) {
   ModelAccumulator m;
   Work work;
   work.Run(m, 5.0, Leave);
-  work.row_.total_mass_kg = 20.0;
+  work.row_.true_mass->mass_kg = 20.0;
   long i = 0;
-  work.Run(m, 12.0, [&i](logs::LogRow& row) {
-    row.learned_mass_kg += row.time_s < 14.999 ? 7.0 : (i++ % 2 == 0 ? -0.8 : -1.2);
-    row.learned_p_BC_m[0] += 0.004;
-    row.learned_p_BC_m[1] -= 0.003;
+  work.Run(m, 12.0, [&i](logs::Row& row) {
+    row.model->learned->mass_kg += row.time_s < 14.999 ? 7.0 : (i++ % 2 == 0 ? -0.8 : -1.2);
+    row.model->learned->p_BC_m[0] += 0.004;
+    row.model->learned->p_BC_m[1] -= 0.003;
   });
-  work.row_.total_mass_kg = kRobot_kg;
+  work.row_.true_mass->mass_kg = kRobot_kg;
   work.Run(m, 9.0, Leave);
   const ModelMetrics metrics = m.Finish();
   ASSERT_EQ(metrics.intervals.size(), 3u);
@@ -171,11 +175,11 @@ TEST(Model, GradualChangeIsOneStepAndItsRowsBelongToNoInterval) {
   ModelAccumulator m;
   Work work;
   work.Run(m, 3.0, Leave);
-  const Work::Spoil late = [](logs::LogRow& row) {
-    row.learned_mass_kg = row.time_s < 6.499 ? kRobot_kg : 20.1;
+  const Work::Spoil late = [](logs::Row& row) {
+    row.model->learned->mass_kg = row.time_s < 6.499 ? kRobot_kg : 20.1;
   };
   for (int step = 1; step <= 100; ++step) {
-    work.row_.total_mass_kg = kRobot_kg + 0.05 * step;
+    work.row_.true_mass->mass_kg = kRobot_kg + 0.05 * step;
     work.Run(m, 0.02, late);
   }
   work.Run(m, 5.02, late);
@@ -193,11 +197,11 @@ TEST(Model, GradualChangeIsOneStepAndItsRowsBelongToNoInterval) {
 TEST(Model, ExchangeOfPayloadsIsOneStep) {
   ModelAccumulator m;
   Work work;
-  work.row_.total_mass_kg = 17.5;
+  work.row_.true_mass->mass_kg = 17.5;
   work.Run(m, 1.0, Leave);
-  work.row_.total_mass_kg = kRobot_kg;
+  work.row_.true_mass->mass_kg = kRobot_kg;
   work.Run(m, kRow_s, Leave);
-  work.row_.total_mass_kg = 20.0;
+  work.row_.true_mass->mass_kg = 20.0;
   work.Run(m, 1.0, Leave);
   const ModelMetrics metrics = m.Finish();
   ASSERT_EQ(metrics.intervals.size(), 2u);
@@ -208,15 +212,15 @@ TEST(Model, FallenRowsAreLeftOutButTimeGoesOn) {
   ModelAccumulator m;
   Work work;
   work.Run(m, 1.0, Leave);
-  work.row_.total_mass_kg = 20.0;
-  work.Run(m, 6.0, [](logs::LogRow& row) {
+  work.row_.true_mass->mass_kg = 20.0;
+  work.Run(m, 6.0, [](logs::Row& row) {
     const double since_s = row.time_s - 1.0;
-    row.fallen = since_s > 1.999 && since_s < 2.999;
-    row.operating = !(since_s > 3.999 && since_s < 4.499);
+    row.episode->fallen = since_s > 1.999 && since_s < 2.999;
+    row.episode->operating = !(since_s > 3.999 && since_s < 4.499);
     // The controller's fresh start after the fall has not taken its readings yet.
-    row.learned_tared = !(since_s > 2.999 && since_s < 3.499);
-    const bool wild = row.fallen || !row.operating || !row.learned_tared;
-    row.learned_mass_kg += since_s < 1.0 ? -5.0 : (wild ? 9.0 : 0.2);
+    row.model->learned->tared = !(since_s > 2.999 && since_s < 3.499);
+    const bool wild = row.episode->fallen || !row.episode->operating || !row.model->learned->tared;
+    row.model->learned->mass_kg += since_s < 1.0 ? -5.0 : (wild ? 9.0 : 0.2);
   });
   const ModelMetrics metrics = m.Finish();
   ASSERT_EQ(metrics.intervals.size(), 2u);
@@ -231,9 +235,9 @@ TEST(Model, FallenRowsAreLeftOutButTimeGoesOn) {
 TEST(Model, FirstIntervalBeginsWithTheTare) {
   ModelAccumulator m;
   Work work;
-  work.row_.learned_tared = false;
-  work.Run(m, 2.0, [](logs::LogRow& row) { row.operating = row.time_s > 0.999; });
-  work.row_.learned_tared = true;
+  work.row_.model->learned->tared = false;
+  work.Run(m, 2.0, [](logs::Row& row) { row.episode->operating = row.time_s > 0.999; });
+  work.row_.model->learned->tared = true;
   work.Run(m, 2.0, Leave);
   const ModelMetrics metrics = m.Finish();
   ASSERT_EQ(metrics.intervals.size(), 1u);
@@ -244,14 +248,13 @@ TEST(Model, FirstIntervalBeginsWithTheTare) {
 TEST(Model, WithoutAdaptationOnlyTheMassActedOnIsJudged) {
   ModelAccumulator m;
   Work work;
-  const Work::Spoil none = [](logs::LogRow& row) {
-    row.operating = row.time_s > 0.999;
-    row.learned_mass_kg = 0.0;
-    row.learned_tared = false;
-    row.used_mass_kg = kRobot_kg;
+  const Work::Spoil none = [](logs::Row& row) {
+    row.episode->operating = row.time_s > 0.999;
+    row.model->learned.reset();
+    row.model->used_mass_kg = kRobot_kg;
   };
   work.Run(m, 2.0, none);
-  work.row_.total_mass_kg = 17.0;
+  work.row_.true_mass->mass_kg = 17.0;
   work.Run(m, 1.0, none);
   const ModelMetrics metrics = m.Finish();
   EXPECT_FALSE(metrics.present);
@@ -288,8 +291,8 @@ TEST(Model, JsonRoundTripAndOlderResults) {
   ModelAccumulator m;
   Work work;
   work.Run(m, 1.0, Leave);
-  work.row_.total_mass_kg = 18.0;
-  work.Run(m, 1.0, [](logs::LogRow& row) { row.learned_mass_kg += 0.05; });
+  work.row_.true_mass->mass_kg = 18.0;
+  work.Run(m, 1.0, [](logs::Row& row) { row.model->learned->mass_kg += 0.05; });
   EpisodeMetrics episode;
   episode.model = m.Finish();
   nlohmann::json json = nlohmann::json::parse(nlohmann::json(episode).dump());

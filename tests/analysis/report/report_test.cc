@@ -18,6 +18,7 @@
 #include "analysis/terrain/terrain_view.h"
 #include "core/files.h"
 #include "tests/support/robots.h"
+#include "tests/support/rows.h"
 
 namespace scoria::analysis {
 namespace {
@@ -78,22 +79,24 @@ void WriteCampaign(const fs::path& folder, const EstimationMetrics& estimation =
 EstimationMetrics DriftingEstimation() {
   EstimationAccumulator e;
   for (int i = 0; i < 25000; ++i) {
-    logs::LogRow row;
-    row.operating = true;
+    logs::Row row = test::WholeRow();
+    row.episode->operating = true;
     row.time_s = 0.002 * i;
-    row.p_WB_m = {0.001 * i, 0.0, 0.3};
-    row.est_p_WB_m = {0.00102 * i, 0.0, 0.3};
-    row.nees = 10.0;
+    row.truth->p_WB_m = {0.001 * i, 0.0, 0.3};
+    row.estimate->p_WB_m = {0.00102 * i, 0.0, 0.3};
+    row.estimate->v_WB_mps[1] += 0.1;
+    row.estimate->P_tilt_v = {1.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.001};
+    row.estimate->P_tilt_v->back() = 1.0;
     const auto stance = [](int at) { return at >= 0 && (at / 100) % 2 == 1; };
-    row.true_contact.fill(stance(i));
-    row.planned_stance.fill(stance(i + 5));
-    row.contact_sensor.fill(stance(i - 3));
-    row.contact = row.contact_sensor;
-    row.contact_source.fill(2);
-    row.sensor_healthy.fill(i % 1000 > 50);
-    row.sensor_counts.fill(stance(i) ? 20.0 + i % 50 : i % 30);
-    row.observer_probability.fill(stance(i) ? 0.6 + 0.01 * (i % 30) : 0.01 * (i % 70));
-    row.contact_observer.fill(row.observer_probability[0] > 0.5);
+    row.true_contacts->contact.fill(stance(i));
+    row.plan->stance.fill(stance(i + 5));
+    row.contacts->sensor->contact.fill(stance(i - 3));
+    row.contacts->contact = row.contacts->sensor->contact;
+    row.contacts->source->fill(2);
+    row.contacts->sensor->healthy.fill(i % 1000 > 50);
+    row.contacts->sensor->counts.fill(stance(i) ? 20.0 + i % 50 : i % 30);
+    row.contacts->observer->probability.fill(stance(i) ? 0.6 + 0.01 * (i % 30) : 0.01 * (i % 70));
+    row.contacts->observer->contact.fill(row.contacts->observer->probability[0] > 0.5);
     e.AddRow(row);
   }
   return e.Finish();
@@ -344,14 +347,14 @@ TEST(Report, IsSilentOnAdaptationWhereNoneRan) {
 TEST(Report, DrawsTheCourseOfTheLearnedMass) {
   logs::LogContent log;
   for (int i = 0; i < 3000; ++i) {
-    logs::LogRow row;
+    logs::Row row = test::WholeRow();
     row.time_s = 0.01 * i;
-    row.operating = true;
-    row.learned_tared = i > 200;
+    row.episode->operating = true;
+    row.model->learned->tared = i > 200;
     const double left = std::clamp((2500.0 - i) / 500.0, 0.0, 1.0);
-    row.total_mass_kg = 15.0 + (i > 1000 ? 2.5 * left : 0.0);
-    row.learned_mass_kg = row.used_mass_kg = row.total_mass_kg;
-    row.learned_sigma_kg = 0.1;
+    row.true_mass->mass_kg = 15.0 + (i > 1000 ? 2.5 * left : 0.0);
+    row.model->learned->mass_kg = row.model->used_mass_kg = row.true_mass->mass_kg;
+    row.model->learned->sigma_kg = 0.1;
     log.rows.push_back(row);
   }
   const test::TemporaryFolder folder;

@@ -7,6 +7,7 @@
 #include "core/files.h"
 #include "tests/support/program.h"
 #include "tests/support/robots.h"
+#include "tests/support/rows.h"
 
 namespace scoria::analysis {
 namespace {
@@ -14,13 +15,13 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A robot that stands for a while.
-std::vector<logs::LogRow> StandingRows(double length_s) {
-  std::vector<logs::LogRow> rows;
+std::vector<logs::Row> StandingRows(double length_s) {
+  std::vector<logs::Row> rows;
   for (double t = 0.0; t <= length_s; t += 0.01) {
-    logs::LogRow row;
+    logs::Row row = test::WholeRow();
     row.time_s = t;
-    row.p_WB_m = {0.0, 0.0, 0.3};
-    row.f_F_W_N[2] = 40.0;
+    row.truth->p_WB_m = {0.0, 0.0, 0.3};
+    row.true_contacts->f_F_W_N[2] = 40.0;
     rows.push_back(row);
   }
   return rows;

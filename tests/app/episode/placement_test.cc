@@ -82,14 +82,14 @@ TEST(Placement, OnSmallTilesTheRobotIsPutBesideItsFall) {
     FunctionObserver observer;
     std::optional<Vec2> last_W;
     std::uint32_t segment = 0;
-    observer.on_row = [&](const StepRecord&, const logs::LogRow& row) {
-      const Vec2 p_WB(row.p_WB_m[0], row.p_WB_m[1]);
-      if (last_W && row.segment != segment) {
+    observer.on_row = [&](const StepRecord&, const logs::Row& row) {
+      const Vec2 p_WB(row.truth->p_WB_m[0], row.truth->p_WB_m[1]);
+      if (last_W && row.episode->segment != segment) {
         falls.push_back(*last_W);
         places.push_back(p_WB);
       }
       last_W = p_WB;
-      segment = row.segment;
+      segment = row.episode->segment;
     };
     (void)RunEpisode(scenario, test::Go2(), test::FlatGround(0.8, size_m), {&observer});
     ASSERT_FALSE(falls.empty()) << size_m;

@@ -8,6 +8,7 @@
 
 #include "app/episode/function_observer.h"
 #include "app/episode/run_episode.h"
+#include "logs/read_rows.h"
 #include "terrains/generator.h"
 #include "tests/support/robots.h"
 #include "tests/support/scenarios.h"
@@ -79,6 +80,32 @@ TEST(Recorder, AccelerationAddsUpToTheChangeOfTheVelocity) {
   EXPECT_NEAR(sum_mps.x, last.x - first.x, kRounding_mps);
   EXPECT_NEAR(sum_mps.y, last.y - first.y, kRounding_mps);
   EXPECT_NEAR(sum_mps.z, last.z - first.z, kRounding_mps);
+}
+
+// What the episode says while it runs is what its log says afterwards, to the last bit.
+TEST(Recorder, RowsOfTheLogAreTheRowsOfTheEpisode) {
+  const test::TemporaryFolder folder;
+  const auto path = folder.path() / "log.mcap";
+  const Scenario scenario = test::LoadScenario("rough", {"duration_s=3", "log.keep=full"});
+  const core::RobotDescription robot = core::LoadRobot(scenario.robot);
+  const terrains::Heightfield ground =
+      terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);
+  FileSink file(path, scenario, robot, {{"version", "test"}});
+  std::vector<logs::Row> rows;
+  Recorder recorder(file, scenario);
+  FunctionObserver observer;
+  observer.on_row = [&](const StepRecord&, const logs::Row& row) { rows.push_back(row); };
+  (void)RunEpisode(scenario, robot, ground, {&recorder, &observer});
+  file.Close();
+  std::size_t i = 0;
+  EXPECT_EQ(logs::ForEachRow(path, [&](const logs::Row& row) { EXPECT_TRUE(row == rows.at(i++)); }),
+            "");
+  ASSERT_EQ(i, 1500u);
+  EXPECT_TRUE(logs::GroupsOf(rows.back()).all());
+  EXPECT_TRUE(rows.back().estimate->P_tilt_v.has_value());
+  EXPECT_TRUE(rows.back().contacts->sensor.has_value());
+  EXPECT_FALSE(rows.back().model->learned.has_value()) << "nothing adapts";
+  EXPECT_FALSE(rows[1].solve_times->mpc_s.has_value()) << "the MPC runs in every fifth";
 }
 
 }  // namespace

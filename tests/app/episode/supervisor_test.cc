@@ -68,14 +68,14 @@ TEST(SupervisorScenario, ChangeOfTheControllerKeepsTheContactFallback) {
   long on_fallback = 0, by_failed_sensor = 0;
   bool engaged = false;  // before this row's contacts were found
   FunctionObserver observer;
-  observer.on_row = [&](const StepRecord&, const logs::LogRow& row) {
+  observer.on_row = [&](const StepRecord&, const logs::Row& row) {
     const bool was_engaged = engaged;
-    engaged = row.fallen_back[static_cast<std::size_t>(controller::Watch::kContact)];
+    engaged = row.supervision->fallen_back[static_cast<std::size_t>(controller::Watch::kContact)];
     if (!was_engaged || !engaged) return;
     ++on_fallback;
     for (std::size_t leg = 0; leg < 4; ++leg) {
-      const bool sensor = row.contact_source[leg] == static_cast<int>(ContactSource::kSensor);
-      by_failed_sensor += sensor && !row.sensor_healthy[leg];
+      const bool sensor = (*row.contacts->source)[leg] == static_cast<int>(ContactSource::kSensor);
+      by_failed_sensor += sensor && !row.contacts->sensor->healthy[leg];
     }
   };
   (void)RunEpisode(scenario, robot, ground, {&observer});

@@ -8,7 +8,6 @@
 
 #include "analysis/metrics/metrics.h"
 #include "app/episode/function_observer.h"
-#include "app/episode/rows.h"
 #include "app/episode/run_episode.h"
 #include "core/rng.h"
 #include "terrains/generator.h"
@@ -23,7 +22,7 @@ struct Outcome {
   analysis::EpisodeMetrics metrics;
 };
 
-using Watch = std::function<void(const logs::LogRow&)>;
+using Watch = std::function<void(const logs::Row&)>;
 
 Outcome Walk(const Scenario& scenario, const Watch& watch = {}) {
   const core::RobotDescription robot = core::LoadRobot(scenario.robot);
@@ -31,8 +30,8 @@ Outcome Walk(const Scenario& scenario, const Watch& watch = {}) {
       terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);
   analysis::MetricsAccumulator accumulator(scenario.gravity_mps2);
   FunctionObserver observer;
-  observer.on_row = [&](const StepRecord& record, const logs::LogRow& row) {
-    accumulator.AddRow(row, SolveTimesOf(record.control));
+  observer.on_row = [&](const StepRecord&, const logs::Row& row) {
+    accumulator.AddRow(row);
     if (watch) watch(row);
   };
   Outcome out;
@@ -128,11 +127,11 @@ TEST(PatternChange, WhileWalkingOnFlatAndRoughGround) {
     std::array<double, 4> since_s{};
     std::array<bool, 4> stance{};
     double worst_flip_s = 1e9;
-    const Outcome o = Walk(scenario, [&](const logs::LogRow& row) {
+    const Outcome o = Walk(scenario, [&](const logs::Row& row) {
       if (row.time_s < 1.0) return;
       for (std::size_t i = 0; i < 4; ++i) {
-        if (row.planned_stance[i] == stance[i]) continue;
-        stance[i] = row.planned_stance[i];
+        if (row.plan->stance[i] == stance[i]) continue;
+        stance[i] = row.plan->stance[i];
         if (since_s[i] > 0.0) worst_flip_s = std::min(worst_flip_s, row.time_s - since_s[i]);
         since_s[i] = row.time_s;
       }
@@ -151,8 +150,8 @@ TEST(SolverFaults, OnRoughGroundAreMetAndCounted) {
         test::LoadScenario("rough", {fmt::format("controller.gait.type={}", gait),
                                      "solver_faults.share=0.01", "operator.distance_m=10"});
     bool finite = true;
-    const Outcome o = Walk(scenario, [&](const logs::LogRow& row) {
-      for (const double tau : row.tau_Nm) finite = finite && std::isfinite(tau);
+    const Outcome o = Walk(scenario, [&](const logs::Row& row) {
+      for (const double tau : row.true_joints->tau_Nm) finite = finite && std::isfinite(tau);
     });
     EXPECT_TRUE(finite);
     EXPECT_EQ(o.result.falls, 0) << gait;
@@ -279,11 +278,11 @@ TEST_P(SwitchWhileWalking, KeepsWalkingWithoutATorqueStep) {
     switched_s = event.time_s;
     ++changes;
   };
-  observer.on_row = [&](const StepRecord&, const logs::LogRow& row) {
+  observer.on_row = [&](const StepRecord&, const logs::Row& row) {
     double step_Nm = 0.0;
     for (std::size_t j = 0; j < last.size(); ++j)
-      step_Nm = std::max(step_Nm, std::abs(row.tau_Nm[j] - last[j]));
-    last = row.tau_Nm;
+      step_Nm = std::max(step_Nm, std::abs(row.true_joints->tau_Nm[j] - last[j]));
+    last = row.true_joints->tau_Nm;
     if (row.time_s < 2.0) return;
     const bool after = switched_s >= 0.0 && row.time_s - switched_s < kAfter_s;
     double& largest = after ? switching_Nm : ordinary_Nm;
@@ -318,8 +317,8 @@ TEST(Slope, IsClimbedDescendedAndCrossed) {
     const Scenario scenario = test::LoadScenario(
         "slope", {fmt::format("terrain.slope_azimuth_rad={}", uphill_rad), "duration_s=12"});
     double worst_rad = 0.0;
-    const Outcome o = Walk(scenario, [&](const logs::LogRow& row) {
-      worst_rad = std::max(worst_rad, std::abs(row.rpy_rad[2]));
+    const Outcome o = Walk(scenario, [&](const logs::Row& row) {
+      worst_rad = std::max(worst_rad, std::abs(row.truth->rpy_rad[2]));
     });
     EXPECT_EQ(o.result.falls, 0) << uphill_rad;
     EXPECT_NEAR(o.metrics.tracking.velocity_x_mps, 0.3, 0.03) << uphill_rad;
@@ -344,7 +343,7 @@ TEST(Push, FifteenNewtonSecondsFromTheSideAreSurvived) {
       const Outcome o = Walk(
           test::LoadScenario("push", {std::string("controller.gait.type=") + gait,
                                       std::string("pushes.0.azimuth_rad=") + side, "duration_s=9"}),
-          [&](const logs::LogRow& row) { v_y.push_back(std::abs(row.v_WB_mps[1])); });
+          [&](const logs::Row& row) { v_y.push_back(std::abs(row.truth->v_WB_mps[1])); });
       EXPECT_EQ(o.result.falls, 0) << gait << side;
       EXPECT_GT(*std::max_element(v_y.begin(), v_y.end()), 0.4) << "the push is felt";
     }
@@ -371,14 +370,16 @@ struct PlacementWork {
 
 std::vector<PlacementWork> WorksByPlacement(const Scenario& scenario) {
   std::vector<PlacementWork> works;
-  logs::LogRow first;
-  (void)Walk(scenario, [&](const logs::LogRow& row) {
-    if (works.empty() || row.segment != first.segment) {
+  logs::Row first;
+  (void)Walk(scenario, [&](const logs::Row& row) {
+    if (works.empty() || row.episode->segment != first.episode->segment) {
       works.emplace_back();
       first = row;
     }
-    const auto net_J = [](const logs::LogRow& r) { return 2.0 * r.mech_pos_J - r.mech_abs_J; };
-    works.back() = {net_J(row) - net_J(first), row.work_motor_J - first.work_motor_J};
+    const auto net_J = [](const logs::Row& r) {
+      return 2.0 * r.energy->mech_pos_J - r.energy->mech_abs_J;
+    };
+    works.back() = {net_J(row) - net_J(first), row.ledger->motor_J - first.ledger->motor_J};
   });
   return works;
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "app/run/run_scenario.h"
+#include "tests/support/logs.h"
 #include "tests/support/robots.h"
 #include "tests/support/scenarios.h"
 
@@ -24,6 +25,22 @@ TEST(Replay, ReproducesEveryEstimateBitForBit) {
       ReplayLog(folder.path() / "log.mcap", {"controller.estimator.type=linear_kf"});
   EXPECT_FALSE(other.identical);
   EXPECT_NE(other.replayed.velocity_rmse_mps, other.logged.velocity_rmse_mps);
+}
+
+// The estimates are the controller's own: they can be compared without knowing the truth.
+TEST(Replay, NeedsNoTruth) {
+  const test::TemporaryFolder folder;
+  RunOptions options;
+  options.folder = folder.path();
+  (void)RunToFolder(test::LoadScenario("rough", {"duration_s=3"}), options);
+  const std::filesystem::path log = folder.path() / "field.mcap";
+  test::CopyLog(folder.path() / "log.mcap", log,
+                [](const std::string& topic) { return !test::IsTruthTopic(topic); });
+  const ReplayResult same = ReplayLog(log, {});
+  EXPECT_EQ(same.rows, 1500);
+  EXPECT_TRUE(same.identical) << same.first_difference_s;
+  EXPECT_EQ(same.file_problem, "");
+  EXPECT_EQ(same.replayed.rows, 0u) << "no error is known";
 }
 
 TEST(Replay, FollowsFallsAndChangesOfTheController) {
@@ -76,6 +93,10 @@ TEST(Replay, SaysWhatItCannotDo) {
       log.string() +
           ": a controller that runs on the truth cannot be replayed; choose other stages "
           "with --set controller.estimator.type=inekf and controller.contact.source=hierarchy");
+  (void)RunToFolder(test::LoadScenario("flat", {"duration_s=1"}), options);
+  const std::filesystem::path silent = folder.path() / "silent.mcap";
+  test::CopyLog(log, silent, [](const std::string& t) { return t != "/scoria/row/estimate"; });
+  EXPECT_EQ(ReplayError(silent, {}), "the log holds no estimates to compare with");
   EXPECT_NE(ReplayError(log, {"gravity_mps2=3.7"}).find("a replay can only change controller.*"),
             std::string::npos);
 }
