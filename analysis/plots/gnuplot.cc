@@ -103,13 +103,19 @@ std::string Escape(const std::string& text) {
   constexpr std::string_view kSpecial = "_^@&~{}\\'%";
   std::string out;
   std::size_t characters = 0;
+  bool coded = false;
   for (const char c : core::PrintableText(text)) {
     const bool starts = (static_cast<unsigned char>(c) & 0xc0) != 0x80;  // a character of UTF-8
-    if (starts && ++characters > kLongest) return out + "…";
-    out +=
-        kSpecial.find(c) == std::string_view::npos ? std::string(1, c) : fmt::format("\\{:03o}", c);
+    if (starts && ++characters > kLongest) {
+      out += "…";
+      break;
+    }
+    const bool special = kSpecial.find(c) != std::string_view::npos;
+    out += special ? fmt::format("\\{:03o}", c) : std::string(1, c);
+    coded = coded || special;
   }
-  return out;
+  // PNG and PDF show the codes as they stand where nothing else asks for enhanced mode.
+  return coded ? out + "{}" : out;
 }
 
 std::string ArmColour(std::size_t index) {

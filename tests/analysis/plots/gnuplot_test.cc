@@ -57,6 +57,21 @@ TEST(Gnuplot, DrawsAnyName) {
   }
 }
 
+/// gnuplot's own plain text is the oracle.
+TEST(Gnuplot, EscapedTextLooksThePlainWayInPixels) {
+  const test::TemporaryFolder folder;
+  const auto draw = [&](const std::string& name, const std::string& label) {
+    Figure figure(name, name);
+    figure.Line("unset xtics; unset ytics; unset border; set margins 5,5,5,5");
+    figure.Line("set label 1 " + label);
+    figure.Line("plot [-1:1][-1:1] NaN notitle");
+    figure.Render(folder.path());
+    return core::ReadText(folder.path() / (name + ".png"));
+  };
+  EXPECT_EQ(draw("escaped", "'" + Escape("a_b 50%") + "' at 0,0"),
+            draw("plain", "\"a_b 50%\" at 0,0 noenhanced"));
+}
+
 TEST(Gnuplot, RefusedFigureSaysWhyAndLeavesNoOldOne) {
   const test::TemporaryFolder folder;
   Figure good("f", "f");
