@@ -5,10 +5,7 @@
 #include <cstdint>
 #include <map>
 
-#include <fmt/format.h>
-
 #include "analysis/metrics/model_metrics.h"
-#include "analysis/study/compare.h"
 
 namespace scoria::analysis {
 namespace {
@@ -64,13 +61,6 @@ MeanEstimate Change(const BySeed& seeds, const BySeed& baseline) {
   return EstimateMean(differences);
 }
 
-/// "-0.86 ± 0.12"; the mean alone for a single seed.
-std::string MeanAndSpread(const MeanEstimate& e, double scale, int digits) {
-  if (e.count == 0) return "–";
-  const std::string mean = fmt::format("{:+.{}f}", scale * e.mean, digits);
-  return e.count == 1 ? mean : fmt::format("{} ± {:.{}f}", mean, scale * e.deviation, digits);
-}
-
 }  // namespace
 
 std::vector<BiasLine> CalcBiasBudget(const CampaignResults& results) {
@@ -102,40 +92,6 @@ std::vector<BiasLine> CalcBiasBudget(const CampaignResults& results) {
     }
   }
   return lines;
-}
-
-void AddBiasBudget(const CampaignResults& results, HtmlPage& page) {
-  std::vector<std::vector<std::string>> rows;
-  for (const BiasLine& line : CalcBiasBudget(results)) {
-    std::vector<std::string> row{line.arm};
-    row.insert(row.end(), line.point.begin(), line.point.end());
-    row.push_back(std::to_string(line.bias_kg.count));
-    row.push_back(MeanAndSpread(line.bias_kg, 1.0, 2));
-    row.push_back(line.baseline ? "baseline" : FormatDifference(line.change_kg, 1.0, 2));
-    row.push_back(MeanAndSpread(line.added_kg, 1.0, 2));
-    row.push_back(MeanAndSpread(line.removed_kg, 1.0, 2));
-    row.push_back(line.noise_kg.count > 0 ? fmt::format("{:.3f}", line.noise_kg.mean) : "–");
-    row.push_back(MeanAndSpread(line.com_x_m, 1e3, 1));
-    row.push_back(MeanAndSpread(line.com_y_m, 1e3, 1));
-    rows.push_back(std::move(row));
-  }
-  if (rows.empty()) return;
-  std::vector<std::string> header{"arm"};
-  for (const Axis& axis : results.axes) header.push_back(axis.label);
-  for (const char* name : {"seeds", "bias [kg]", "change of the bias [kg]", "after adding [kg]",
-                           "after removal [kg]", "noise [kg]", "COM x [mm]", "COM y [mm]"}) {
-    header.emplace_back(name);
-  }
-  page.Heading("Bias budget");
-  page.Table(header, rows);
-  page.Note(fmt::format(
-      "Learned minus true, from {:.0f} s after each change of mass on, settled or not: mean ± "
-      "standard deviation over seeds. Errors that a robot has from its turn-on on, such as those "
-      "of its torque sensors, differ between seeds: they show in the deviation, not in the mean. "
-      "Change: against the baseline, seeds in pairs, with Student's interval; what an error "
-      "contributes to the bias is the change that switching it off makes, with the other sign. "
-      "Noise: standard deviation within an interval.",
-      kLate_s));
 }
 
 }  // namespace scoria::analysis

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "analysis/report/html.h"
 #include "analysis/statistics/stats.h"
 #include "analysis/study/results.h"
 
@@ -26,8 +25,5 @@ struct BiasLine {
 /// One line per arm and point of a campaign one of whose axes names its baseline; else none. Points
 /// that differ from it on that axis alone are compared with it.
 [[nodiscard]] std::vector<BiasLine> CalcBiasBudget(const CampaignResults& results);
-
-/// The lines as a table; silent where there are none.
-void AddBiasBudget(const CampaignResults& results, HtmlPage& page);
 
 }  // namespace scoria::analysis

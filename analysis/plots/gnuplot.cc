@@ -118,10 +118,4 @@ std::string Escape(const std::string& text) {
   return coded ? out + "{}" : out;
 }
 
-std::string ArmColour(std::size_t index) {
-  constexpr std::array<const char*, 6> kColours = {"#0072b2", "#d55e00", "#009e73",
-                                                   "#cc79a7", "#e69f00", "#56b4e9"};
-  return kColours[index % kColours.size()];
-}
-
 }  // namespace scoria::analysis

@@ -36,7 +36,4 @@ class Figure {
 /// mode shows as it stands; what is too long for a figure is cut.
 [[nodiscard]] std::string Escape(const std::string& text);
 
-/// Colours of arms, safe for the common colour-vision deficiencies ([Okabe2008]).
-[[nodiscard]] std::string ArmColour(std::size_t index);
-
 }  // namespace scoria::analysis

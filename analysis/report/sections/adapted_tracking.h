@@ -4,22 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "analysis/plots/figures.h"
-#include "analysis/report/html.h"
-#include "analysis/study/compare.h"
-#include "logs/read_rows.h"
+#include "analysis/statistics/stats.h"
+#include "analysis/study/results.h"
 
 namespace scoria::analysis {
-
-/// Section "Online model adaptation": what was learned of the mass per arm, point and interval of
-/// the true mass; nothing where no arm adapted.
-void AddModelAdaptation(const CampaignResults& results, const std::vector<Cell>& cells,
-                        HtmlPage& page);
-
-/// Course of learned, used and true mass and centre of mass: of the first episode of each adapting
-/// arm that kept its log.
-[[nodiscard]] std::vector<CaptionedFigure> ModelFigures(const CampaignResults& results);
-[[nodiscard]] CaptionedFigure ModelFigure(const logs::LogContent& log, const std::string& name);
 
 /// One arm's tracking against the one without adaptation, on the same seeds.
 struct TrackingDifference {
@@ -32,8 +20,5 @@ struct TrackingDifference {
 };
 /// Every other arm against the first without adaptation; none where all or no arms adapt.
 [[nodiscard]] std::vector<TrackingDifference> CompareTracking(const CampaignResults& results);
-
-/// Section "Tracking with and without adaptation".
-void AddAdaptedTracking(const CampaignResults& results, HtmlPage& page);
 
 }  // namespace scoria::analysis

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "analysis/report/document.h"
+#include "analysis/study/compare.h"
+#include "analysis/study/results.h"
+
+namespace scoria::analysis {
+
+/// What the sections of a report are made from.
+struct ReportInput {
+  std::filesystem::path folder;  // of the campaign or run
+  CampaignResults results;
+  std::vector<Cell> cells;              // every arm at every point of the sweep
+  std::vector<Cell> pooled;             // every arm over the whole sweep
+  std::vector<Comparison> comparisons;  // none of a single arm
+  std::optional<ReportPicture> picture;
+
+  /// Some episode has numbers.
+  [[nodiscard]] bool HasMetrics() const;
+};
+
+/// Pools and compares the results. Errors: none.
+[[nodiscard]] ReportInput MakeReportInput(const std::filesystem::path& folder,
+                                          CampaignResults results,
+                                          std::optional<ReportPicture> picture);
+
+}  // namespace scoria::analysis

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "analysis/report/sections/sections.h"
+
+namespace scoria::analysis {
+
+std::vector<Section> AllSections() {
+  return {PointVerdictsSection(),
+          FailuresSection(),
+          FallsSection(),
+          CostOfTransportSection(),
+          TrackingSection(),
+          NumbersSection(),
+          StateEstimationSection(),
+          ContactDetectionSection(),
+          ModelAdaptationSection(),
+          BiasBudgetSection(),
+          AdaptedTrackingSection(),
+          EnergySection(),
+          ComputingTimeSection(),
+          GroundSection(),
+          CourseSection(),
+          VideosSection(),
+          DataSection()};
+}
+
+}  // namespace scoria::analysis

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "analysis/report/section.h"
+
+namespace scoria::analysis {
+
+[[nodiscard]] Section PointVerdictsSection();
+[[nodiscard]] Section FailuresSection();
+[[nodiscard]] Section FallsSection();
+[[nodiscard]] Section CostOfTransportSection();
+[[nodiscard]] Section TrackingSection();
+[[nodiscard]] Section NumbersSection();
+[[nodiscard]] Section StateEstimationSection();
+[[nodiscard]] Section ContactDetectionSection();
+[[nodiscard]] Section ModelAdaptationSection();
+[[nodiscard]] Section BiasBudgetSection();
+[[nodiscard]] Section AdaptedTrackingSection();
+[[nodiscard]] Section EnergySection();
+[[nodiscard]] Section ComputingTimeSection();
+[[nodiscard]] Section GroundSection();
+[[nodiscard]] Section CourseSection();
+[[nodiscard]] Section VideosSection();
+[[nodiscard]] Section DataSection();
+
+/// All of them, in the order of the page.
+[[nodiscard]] std::vector<Section> AllSections();
+
+}  // namespace scoria::analysis
