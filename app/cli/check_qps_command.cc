@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "app/cli/commands.h"
-#include "app/inspect/qp_check.h"
+#include "controller/qp/sets/qp_check.h"
 
 namespace scoria::app {
 
@@ -14,7 +14,7 @@ void AddCheckQps(CLI::App& app, int& exit_code) {
       app.add_subcommand("check-qps", "check the optimality conditions of saved QPs, one by one");
   check->add_option("folder", *folder, "what run --save-qps wrote")->required();
   check->callback([folder, &exit_code] {
-    for (const QpCheck& c : CheckQpSets(*folder)) {
+    for (const controller::QpCheck& c : controller::CheckQpFiles(*folder)) {
       fmt::print(
           "{:16} {} problems: primal {:.1e}, dual {:.1e}, stationarity {:.1e}, complementarity "
           "{:.1e}: {}\n",

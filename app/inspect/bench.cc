@@ -11,9 +11,10 @@
 
 #include "analysis/report/json_text.h"
 #include "app/episode/run_episode.h"
-#include "app/inspect/qp_sets.h"
 #include "controller/estimation/inekf.h"
+#include "controller/qp/sets/qp_bench.h"
 #include "controller/stand_up.h"
+#include "core/math/quantile.h"
 #include "core/stopwatch.h"
 #include "sim/actuation.h"
 #include "terrains/generator.h"
@@ -34,13 +35,10 @@ struct Options {
 };
 
 /// Median and 99th percentile of times, in microseconds.
-nlohmann::json Spread(std::vector<double> us) {
-  constexpr double kMedian = 0.5, kP99 = 0.99;
-  std::sort(us.begin(), us.end());
-  const auto at = [&](double share) {
-    return us[static_cast<std::size_t>(share * static_cast<double>(us.size() - 1))];
-  };
-  return {{"median_us", at(kMedian)}, {"p99_us", at(kP99)}, {"calls", us.size()}};
+nlohmann::json Spread(const std::vector<double>& us) {
+  return {{"median_us", core::Quantile(us, 0.5)},
+          {"p99_us", core::Quantile(us, 0.99)},
+          {"calls", us.size()}};
 }
 
 void Print(const std::string& name, const nlohmann::json& spread) {
@@ -49,7 +47,7 @@ void Print(const std::string& name, const nlohmann::json& spread) {
              spread["calls"].get<std::size_t>());
 }
 
-nlohmann::json ToJson(const QpBenchmark& b) {
+nlohmann::json ToJson(const controller::QpBenchmark& b) {
   return {{"file", b.file},
           {"kind", b.kind},
           {"problems", b.problems},
@@ -68,7 +66,9 @@ nlohmann::json ToJson(const QpBenchmark& b) {
 
 void BenchQp(const Options& o) {
   nlohmann::json json = nlohmann::json::array();
-  for (const QpBenchmark& b : BenchmarkQpSets(o.folder, o.repeats)) {
+  const controller::QpSolvers solvers = controller::MakeQpSolvers();
+  for (const controller::QpBenchmark& b :
+       controller::BenchmarkQpFiles(o.folder, solvers, o.repeats)) {
     json.push_back(ToJson(b));
     if (o.json) continue;
     fmt::print(

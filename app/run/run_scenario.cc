@@ -72,6 +72,7 @@ class ScenarioRun {
     for (const analysis::FallEvent& fall : report.result.fall_events) metrics_.AddFall(fall);
     report.metrics = metrics_.Finish();
     if (file_) file_->Close();
+    if (qps_) qps_->Close();
     Judge(report);
     WriteResult(report);
     return report;
@@ -97,11 +98,7 @@ class ScenarioRun {
 
   void SaveQps() {
     if (options_.save_qps.empty()) return;
-    qps_.emplace(options_.save_qps, scenario_.controller);
-    qp_steps_.on_step = [this](const StepRecord& record) {
-      qps_->Record(record.controller, record.control);
-    };
-    observers_.push_back(&qp_steps_);
+    observers_.push_back(&qps_.emplace(options_.save_qps, scenario_.controller));
   }
 
   void Judge(EpisodeReport& report) const {
@@ -127,7 +124,7 @@ class ScenarioRun {
   terrains::Terrain terrain_;
   nlohmann::json terrain_json_;
   analysis::MetricsAccumulator metrics_;
-  FunctionObserver metrics_rows_, progress_, qp_steps_;
+  FunctionObserver metrics_rows_, progress_;
   std::optional<FileSink> file_;
   std::optional<Recorder> recorder_;
   std::optional<QpRecorder> qps_;

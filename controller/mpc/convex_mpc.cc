@@ -89,6 +89,7 @@ void ConvexMpc::Build(const MpcInput& in) noexcept {
 }
 
 ForcePlan ConvexMpc::ToPlan() const noexcept {
+  const OcpSolution& solution = solver_.solution();
   ForcePlan plan;
   plan.valid = true;
   plan.dt_s = params_.stage_s;
@@ -96,18 +97,18 @@ ForcePlan ConvexMpc::ToPlan() const noexcept {
     const auto i = static_cast<std::size_t>(
         std::min(k, params_.horizon - 1));  // a shorter horizon repeats its last stage
     const auto to = static_cast<std::size_t>(k);
-    const Vec12& x = solution_.x[i];
+    const Vec12& x = solution.x[i];
     plan.body[to] = {x.segment<3>(0), x.segment<3>(3), x.segment<3>(6), x.segment<3>(9)};
     plan.stance[to] = qp_.stages[i].stance;
     for (const Leg leg : kLegs) {
-      plan.f_F_W[to][leg] = R_WT_ * solution_.u[i].segment<3>(3 * static_cast<int>(leg));
+      plan.f_F_W[to][leg] = R_WT_ * solution.u[i].segment<3>(3 * static_cast<int>(leg));
     }
   }
   for (const Leg leg : kLegs) {
     for (int k = 0; k < params_.horizon; ++k) {
       const auto i = static_cast<std::size_t>(k);
       if (!qp_.stages[i].stance[leg]) continue;
-      plan.f_next_F_W[leg] = R_WT_ * solution_.u[i].segment<3>(3 * static_cast<int>(leg));
+      plan.f_next_F_W[leg] = R_WT_ * solution.u[i].segment<3>(3 * static_cast<int>(leg));
       break;
     }
   }
@@ -116,10 +117,10 @@ ForcePlan ConvexMpc::ToPlan() const noexcept {
 
 MpcResult ConvexMpc::Solve(const MpcInput& in) noexcept {
   Build(in);
-  solver_.Solve(qp_, solution_);
+  const OcpSolution& solution = solver_.Solve(qp_);
   MpcResult result;
-  result.status = solution_.status;
-  result.iterations = solution_.iterations;
+  result.status = solution.status;
+  result.iterations = solution.iterations;
   if (IsUsable(result.status)) result.plan = ToPlan();
   return result;
 }

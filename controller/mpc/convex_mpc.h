@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "controller/qp/riccati_ipm.h"
+#include "controller/qp/solvers/riccati_ipm.h"
 #include "core/robot/plans.h"
 #include "core/robot/whole_body.h"
 
@@ -91,7 +91,7 @@ class ConvexMpc {
 
   /// The last problem and its solution, for saving and for tests.
   [[nodiscard]] const OcpQp& qp() const noexcept { return qp_; }
-  [[nodiscard]] const OcpSolution& solution() const noexcept { return solution_; }
+  [[nodiscard]] const OcpSolution& solution() const noexcept { return solver_.solution(); }
 
  private:
   void Build(const MpcInput& in) noexcept;
@@ -102,7 +102,6 @@ class ConvexMpc {
   double gravity_mps2_;
   RiccatiIpm solver_;
   OcpQp qp_;
-  OcpSolution solution_;
   Mat3 R_WT_ = Mat3::Identity();  // ground frame T: z along the normal, x along the heading
 };
 

@@ -3,7 +3,8 @@
 
 namespace scoria::controller {
 
-enum class SolveStatus { kOptimal, kIterationLimit, kInfeasible, kNumerical };
+/// How a solve ended. kTooLarge: the problem exceeds the solver's memory, nothing was tried.
+enum class SolveStatus { kOptimal, kIterationLimit, kInfeasible, kNumerical, kTooLarge };
 
 [[nodiscard]] constexpr bool IsUsable(SolveStatus status) noexcept {
   return status == SolveStatus::kOptimal || status == SolveStatus::kIterationLimit;

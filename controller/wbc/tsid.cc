@@ -13,8 +13,8 @@ Tsid::Tsid(const TsidParams& params, const core::RobotDescription& robot)
     : params_(params),
       robot_(robot),
       effort_Nm_(robot.EffortLimits()),
-      dense_(params.formulation == TsidFormulation::kFull ? TsidFormulation::kFull
-                                                          : TsidFormulation::kReduced) {}
+      dense_(params.formulation == TsidFormulation::kFull ? TsidVariables::kFull
+                                                          : TsidVariables::kReduced) {}
 
 /// Equations of motion, and contact points that keep still.
 void Tsid::AddMotion(const WbcInput& in) noexcept {
@@ -123,12 +123,12 @@ void Tsid::AddLimits(const WbcInput& in) noexcept {
   for (const Leg leg : kLegs) last_.problem.tau_min[leg] = -effort_Nm_[leg];
 }
 
-TsidSolution Tsid::SolveForm(bool torque_limits) noexcept {
-  if (params_.formulation != TsidFormulation::kNullspace)
-    return dense_.Solve(last_.problem, torque_limits);
-  TsidSolution solution = nullspace_.Solve(last_.problem, torque_limits);
+TsidSolution Tsid::SolveForm(bool limit_torques) noexcept {
+  last_.problem.limit_torques = limit_torques;
+  if (params_.formulation != TsidFormulation::kNullspace) return dense_.Solve(last_.problem);
+  TsidSolution solution = nullspace_.Solve(last_.problem);
   if (solution.singular_leg) {
-    solution = dense_.Solve(last_.problem, torque_limits);
+    solution = dense_.Solve(last_.problem);
     solution.singular_leg = true;
   }
   return solution;
@@ -143,11 +143,9 @@ WbcResult Tsid::Solve(const WbcInput& in) noexcept {
   AddTrunkTask(in, f_planned, result.target);
   AddSwingTasks(in);
   AddLimits(in);
-  last_.torque_limits = true;
   last_.solution = SolveForm(true);
   if (last_.solution.status != SolveStatus::kOptimal) {
     result.torque_rows_dropped = true;
-    last_.torque_limits = false;
     last_.solution = SolveForm(false);
   }
   result.status = last_.solution.status;

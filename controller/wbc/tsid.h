@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "controller/wbc/tsid_dense.h"
-#include "controller/wbc/tsid_nullspace.h"
+#include "controller/qp/solvers/tsid_dense.h"
+#include "controller/qp/solvers/tsid_nullspace.h"
 #include "controller/wbc/whole_body_controller.h"
 
 namespace scoria::controller {
@@ -31,7 +31,7 @@ class Tsid final : public WholeBodyController {
                     const BodyReference::Stage& target) noexcept;
   void AddSwingTasks(const WbcInput& in) noexcept;
   void AddLimits(const WbcInput& in) noexcept;
-  [[nodiscard]] TsidSolution SolveForm(bool torque_limits) noexcept;
+  [[nodiscard]] TsidSolution SolveForm(bool limit_torques) noexcept;
 
   TsidParams params_;
   const core::RobotDescription& robot_;

@@ -4,10 +4,10 @@
 #include <memory>
 #include <variant>
 
+#include "controller/qp/problems/tsid_problem.h"
 #include "controller/qp/status.h"
 #include "controller/wbc/inverse_dynamics_params.h"
 #include "controller/wbc/tsid_params.h"
-#include "controller/wbc/tsid_problem.h"
 #include "core/robot/plans.h"
 #include "core/robot/whole_body.h"
 
