@@ -21,11 +21,6 @@ Count CountOf(Watch watch) noexcept {
   return static_cast<Count>(static_cast<int>(Count::kFallbackMpc) + static_cast<int>(watch));
 }
 
-template <class Params>
-bool Same(const Params& a, const Params& b) {
-  return core::EmitYaml(core::WriteConfig(a)) == core::EmitYaml(core::WriteConfig(b));
-}
-
 }  // namespace
 
 bool NeedsTruth(const ControllerParams& params) noexcept {
@@ -108,34 +103,34 @@ void Controller::Reconfigure(const ControllerParams& params) {
   const double gravity_mps2 = model_.gravity_mps2();
   ContactParams other_choice = before.contact;
   other_choice.source = params.contact.source;
-  if (Same(params.contact, other_choice)) {
+  if (params.contact == other_choice) {
     contact_->SetChoice(ContactChoiceInForce());
   } else {
     contact_.emplace(params.contact, robot_, gravity_mps2, clock_.step_s());
     contact_->SetChoice(ContactChoiceInForce());
   }
-  if (!Same(params.estimator, before.estimator)) {
+  if (params.estimator != before.estimator) {
     estimator_ = MakeStateEstimator(params.estimator, robot_, gravity_mps2, {});
     estimator_->Continue(out_.estimate, 1.0);
   }
-  if (!Same(params.adaptation, before.adaptation) ||
-      !Same(params.contact.observer, before.contact.observer)) {
+  if (params.adaptation != before.adaptation ||
+      params.contact.observer != before.contact.observer) {
     adapter_ = MakeModelAdapter(params.adaptation, robot_, gravity_mps2, params.contact.observer);
     adapter_->Continue(model_.parameters());
   }
-  if (!Same(params.gait, before.gait)) {
+  if (params.gait != before.gait) {
     const PhaseEngine phases = gait_->phases();
     gait_ = MakeGaitSequencer(params.gait, robot_.config.nominal_height_m);
     gait_->Continue(phases);
   }
-  if (!Same(params.mpc, before.mpc)) {
+  if (params.mpc != before.mpc) {
     mpc_ = std::make_unique<MpcRunner>(params.mpc, robot_, gravity_mps2);
     mpc_since_ = (clock_.step() + mpc_every_ - 1) / mpc_every_ * mpc_every_;  // its first tick
   }
-  if (!Same(params.wbc, before.wbc)) wbc_ = MakeWholeBodyController(params.wbc, robot_);
+  if (params.wbc != before.wbc) wbc_ = MakeWholeBodyController(params.wbc, robot_);
   samples_.set_params(params.samples);
   reference_planner_.set_params(params.reference);
-  if (!Same(params.foothold, before.foothold)) foothold_planner_.set_params(params.foothold);
+  if (params.foothold != before.foothold) foothold_planner_.set_params(params.foothold);
   leg_states_.set_params(params.legs);
   swing_.set_params(params.swing);
   guard_.set_params(params.safety);

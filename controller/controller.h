@@ -73,6 +73,7 @@ struct ControllerParams {
     a.Field("supervisor", supervisor);
     a.Field("stand_up", stand_up);
   }
+  bool operator==(const ControllerParams&) const = default;
 };
 
 /// Everything that one tick decided, for the record. `*_updated` tells which parts are new.

@@ -21,6 +21,7 @@ struct StandUpParams {
     a.Field("kp_Nm_per_rad", kp_Nm_per_rad, {.min = 1.0, .max = 1e3});
     a.Field("kd_Nms_per_rad", kd_Nms_per_rad, {.min = 0.0, .max = 100.0});
   }
+  bool operator==(const StandUpParams&) const = default;
 };
 
 /// Time from the start of a controller to its taking charge, unless it has to wait for rest.

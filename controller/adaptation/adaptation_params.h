@@ -32,6 +32,7 @@ struct HandOverParams {
             {.min = 0.05, .max = 1.0, .doc = "least mass of the trunk over the nominal one"});
     a.Field("max_payload_kg", max_payload_kg, {.min = 0.0, .max = 100.0});
   }
+  bool operator==(const HandOverParams&) const = default;
 };
 
 /// The nominal model for good.
@@ -39,6 +40,7 @@ struct NoAdaptationParams {
   static constexpr const char* kType = "none";
   template <class Archive>
   void Serialize(Archive&) {}
+  bool operator==(const NoAdaptationParams&) const = default;
 };
 
 /// What the torques of a leg tell of the force on its foot.
@@ -78,6 +80,7 @@ struct AdaptationKfParams {
     a.Field("initial_kgm", initial_kgm, {.min = 1e-6, .max = 10.0});
     a.Field("hand_over", hand_over);
   }
+  bool operator==(const AdaptationKfParams&) const = default;
 };
 
 /// Recursive least squares with exponential forgetting.
@@ -100,6 +103,7 @@ struct RlsParams {
     a.Field("initial_kgm", initial_kgm, {.min = 1e-6, .max = 10.0});
     a.Field("hand_over", hand_over);
   }
+  bool operator==(const RlsParams&) const = default;
 };
 
 /// Sees that the payload has changed: CUSUM over the innovations.
@@ -122,6 +126,7 @@ struct StepDetectionParams {
     a.Field("refill_s", refill_s,
             {.min = 0.0, .max = 10.0, .doc = "after a change: no other is looked for"});
   }
+  bool operator==(const StepDetectionParams&) const = default;
 };
 
 /// A robot that only stands hangs partly on the friction of its joints, unknown until they have
@@ -142,6 +147,7 @@ struct TareParams {
              .max = 1.0,
              .doc = "of the misreading that grows with the load; the rest is offset"});
   }
+  bool operator==(const TareParams&) const = default;
 };
 
 /// Kalman filter over the full floating-base dynamics.
@@ -181,6 +187,7 @@ struct KfPlusParams {
     a.Field("tare", tare);
     a.Field("hand_over", hand_over);
   }
+  bool operator==(const KfPlusParams&) const = default;
 };
 
 using AdapterParams = std::variant<NoAdaptationParams, AdaptationKfParams, RlsParams, KfPlusParams>;

@@ -51,6 +51,7 @@ struct ContactParams {
     a.Field("sensor", sensor);
     a.Field("health", health);
   }
+  bool operator==(const ContactParams&) const = default;
 };
 
 /// @returns true if the choice needs SensorFrame::truth.

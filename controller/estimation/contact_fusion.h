@@ -43,6 +43,7 @@ struct FusionParams {
         "hysteresis", hysteresis,
         {.min = 0.0, .max = 0.4, .doc = "contact begins above 0.5 + this, ends below 0.5 - this"});
   }
+  bool operator==(const FusionParams&) const = default;
 };
 
 /// What is known of one foot.

@@ -46,6 +46,7 @@ struct FootSensorParams {
     a.Field("hysteresis_counts", hysteresis_counts,
             {.min = 0.0, .max = 1000.0, .doc = "contact begins so far above, ends so far below"});
   }
+  bool operator==(const FootSensorParams&) const = default;
 };
 
 /// Extremum over a moving window, in buckets of update_s; a bucket without samples says nothing.
@@ -155,6 +156,7 @@ struct HealthParams {
              .max = 1000,
              .doc = "touchdowns and lift-offs in a row that it must have told in time meanwhile"});
   }
+  bool operator==(const HealthParams&) const = default;
 };
 
 /// What the health monitor compares in one tick.

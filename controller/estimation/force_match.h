@@ -48,6 +48,7 @@ struct ForceMatchParams {
              .max = 100.0,
              .doc = "excess over the tolerance, summed up over time, that is a fault"});
   }
+  bool operator==(const ForceMatchParams&) const = default;
 };
 
 struct ForceMatchInput {

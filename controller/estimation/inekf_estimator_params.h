@@ -63,6 +63,7 @@ struct InekfEstimatorParams {
             {.min = 1.0, .max = 1e6, .doc = "of the IMU's noise while it saturates"});
     a.Field("model_rolling", model_rolling, {.doc = "the round foot rolls on the ground"});
   }
+  bool operator==(const InekfEstimatorParams&) const = default;
 };
 
 }  // namespace scoria::controller

@@ -28,6 +28,7 @@ struct LinearKfParams {
     a.Field("foot_velocity_mps", foot_velocity_mps, {.min = 1e-5, .max = 10.0});
     a.Field("rest", rest);
   }
+  bool operator==(const LinearKfParams&) const = default;
 };
 
 }  // namespace scoria::controller

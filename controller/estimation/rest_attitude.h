@@ -25,6 +25,7 @@ struct RestParams {
     a.Field("patience_s", patience_s,
             {.min = 0.0, .max = 60.0, .doc = "without rest, the start is made from what there is"});
   }
+  bool operator==(const RestParams&) const = default;
 };
 
 /// Mean specific force and rate of an IMU since it came to rest: attitude and turn-on bias of the

@@ -18,6 +18,7 @@ struct SampleGuardParams {
     a.Field("max_gap_s", max_gap_s,
             {.min = 0.001, .max = 10.0, .doc = "longest time that one IMU sample may stand for"});
   }
+  bool operator==(const SampleGuardParams&) const = default;
 };
 
 /// A sensor frame that the estimators may believe, and what was wrong with the one that came.

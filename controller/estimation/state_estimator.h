@@ -67,6 +67,7 @@ struct TruthEstimatorParams {
   static constexpr const char* kType = "truth";
   template <class Archive>
   void Serialize(Archive&) {}
+  bool operator==(const TruthEstimatorParams&) const = default;
 };
 
 using EstimatorParams = std::variant<InekfEstimatorParams, LinearKfParams, TruthEstimatorParams>;

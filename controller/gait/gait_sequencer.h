@@ -65,6 +65,7 @@ struct StrideLaw {
   [[nodiscard]] double Froude(double v_mps, double h_m) const noexcept;
   /// @param v_mps speed, @param h_m COM height. Offsets are left at their default.
   [[nodiscard]] GaitTiming Timing(double v_mps, double h_m) const noexcept;
+  bool operator==(const StrideLaw&) const = default;
 };
 
 /// Gaits by name. Source: the reference framework's table; `walking_trot` is the paper's baseline.
@@ -112,6 +113,7 @@ struct SgsParams {
     a.Field("stand", stand);
   }
   [[nodiscard]] GaitTiming Timing() const noexcept;
+  bool operator==(const SgsParams&) const = default;
 };
 
 /// The speed that a gait adapts to: the largest of the filtered measured one, that of a foot at
@@ -128,6 +130,7 @@ struct SpeedParams {
     a.Field("command_share", command_share,
             {.min = 0.0, .max = 1.0, .doc = "speed floor as a share of the command"});
   }
+  bool operator==(const SpeedParams&) const = default;
 };
 
 /// Walking slower than a Froude number, the legs take the offsets of a walk. Source: the reference
@@ -145,6 +148,7 @@ struct SlowWalkParams {
         "offset_delay_s", offset_delay_s,
         {.min = 0.0, .max = 10.0, .doc = "for so long the speed must ask for the other offsets"});
   }
+  bool operator==(const SlowWalkParams&) const = default;
 };
 
 /// Adaptive gait sequencer of the paper.
@@ -163,6 +167,7 @@ struct AgsParams {
     a.Field("speed", speed);
     a.Field("stand", stand);
   }
+  bool operator==(const AgsParams&) const = default;
 };
 
 /// Fixed at what the stride law gives for the commanded speed: isolates adaptation from slower
@@ -182,6 +187,7 @@ struct SgsMatchedParams {
     a.Field("yaw_arm_m", yaw_arm_m, {.min = 0.0, .max = 1.0, .doc = "speed floor per yaw rate"});
     a.Field("stand", stand);
   }
+  bool operator==(const SgsMatchedParams&) const = default;
 };
 
 /// Gaits of the reference framework by bands of the Froude number, as animals change theirs, with
@@ -203,6 +209,7 @@ struct BioParams {
     a.Field("speed", speed);
     a.Field("stand", stand);
   }
+  bool operator==(const BioParams&) const = default;
 };
 
 using GaitParams = std::variant<SgsParams, AgsParams, SgsMatchedParams, BioParams>;

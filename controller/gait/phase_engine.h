@@ -32,6 +32,7 @@ struct StandParams {
     a.Field("correction_period_s", correction_period_s,
             {.min = 0.25, .max = 5.0, .doc = "between two such steps; a third of it in the air"});
   }
+  bool operator==(const StandParams&) const = default;
 };
 
 /// The phase of every leg, kept consistent while the timing changes. Stage two of the adaptive gait

@@ -50,6 +50,7 @@ struct ObserverParams {
          .max = 0.5,
          .doc = "smallest singular value of a foot's Jacobian below which its force is damped"});
   }
+  bool operator==(const ObserverParams&) const = default;
 };
 
 struct ObserverInput {

@@ -22,6 +22,7 @@ struct MpcWeights {
             {.min = 1e-6, .max = kMax, .doc = "per (rad/s)^2"});
     a.Field("velocity", velocity, {.min = 1e-6, .max = kMax, .doc = "per (m/s)^2"});
   }
+  bool operator==(const MpcWeights&) const = default;
 };
 
 struct MpcParams {
@@ -57,6 +58,7 @@ struct MpcParams {
   [[nodiscard]] std::string Problem() const {
     return f_min_N < f_max_N ? "" : "f_min_N must be below f_max_N";
   }
+  bool operator==(const MpcParams&) const = default;
 };
 
 /// A snapshot: it may be solved on another thread.

@@ -30,6 +30,7 @@ struct ReferenceParams {
             {.min = 0.05, .max = 20.0, .doc = "ramp of commanded speeds"});
     a.Field("max_yaw_acceleration_radps2", max_yaw_acceleration_radps2, {.min = 0.05, .max = 50.0});
   }
+  bool operator==(const ReferenceParams&) const = default;
 };
 
 /// Desired body motion from the operator's command: position and heading integrate the command,

@@ -45,6 +45,7 @@ struct LegStateParams {
     a.Field("stumble_after", stumble_after,
             {.min = 0.0, .max = 1.0, .doc = "swing progress from which touching is a stumble"});
   }
+  bool operator==(const LegStateParams&) const = default;
 };
 
 /// Corrects the planned contacts by the felt ones. `air` below is kLowering or kHolding as

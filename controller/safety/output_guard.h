@@ -41,6 +41,7 @@ struct SafetyParams {
     a.Field("joint_limit_Nm_per_rad", joint_limit_Nm_per_rad, {.min = 0.0, .max = 1e4});
     a.Field("joint_limit_Nms_per_rad", joint_limit_Nms_per_rad, {.min = 0.0, .max = 100.0});
   }
+  bool operator==(const SafetyParams&) const = default;
 };
 
 /// How a command came about. Walking, joints also keep to the working range, and a tilt stop lasts

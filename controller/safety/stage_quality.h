@@ -39,6 +39,7 @@ struct QualityParams {
     a.Field("tilt_rad", tilt_rad,
             {.min = 0.01, .max = 3.2, .doc = "error of the trunk's tilt that leaves no quality"});
   }
+  bool operator==(const QualityParams&) const = default;
 };
 
 /// What the stages say of themselves in one tick of the body controller.

@@ -44,6 +44,7 @@ struct WatchParams {
     a.Field("recover_s", recover_s,
             {.min = 0.0, .max = 600.0, .doc = "sound for so long without a break: comes back"});
   }
+  bool operator==(const WatchParams&) const = default;
 };
 
 struct SupervisorParams {
@@ -85,6 +86,7 @@ struct SupervisorParams {
             {.min = 1.0, .max = 1e3, .doc = "times that a re-initialised estimate is less sure"});
     a.Field("ramp_s", ramp_s, {.min = 0.0, .max = 10.0, .doc = "from one way to walk to another"});
   }
+  bool operator==(const SupervisorParams&) const = default;
 };
 
 /// One stage given up or taken back, and why.

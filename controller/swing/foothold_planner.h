@@ -25,6 +25,7 @@ struct FootholdParams {
              .max = 1.0,
              .doc = "a higher or lower step than this is shortened towards the last foothold"});
   }
+  bool operator==(const FootholdParams&) const = default;
 };
 
 /// Footholds after Raibert with the centrifugal term:

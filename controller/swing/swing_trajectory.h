@@ -25,6 +25,7 @@ struct SwingParams {
     a.Field("stumble_lift_m", stumble_lift_m,
             {.min = 0.0, .max = 0.3, .doc = "added to the apex by the stumble reflex"});
   }
+  bool operator==(const SwingParams&) const = default;
 };
 
 /// Moves swing feet along cubic Bezier curves from lift-off to foothold, in height up to the apex

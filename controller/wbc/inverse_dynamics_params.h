@@ -24,6 +24,7 @@ struct InverseDynamicsParams {
              .max = 0.2,
              .doc = "how far ahead on the MPC's predicted motion the body target lies"});
   }
+  bool operator==(const InverseDynamicsParams&) const = default;
 };
 
 }  // namespace scoria::controller

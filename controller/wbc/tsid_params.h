@@ -60,6 +60,7 @@ struct TsidParams {
              .max = 0.2,
              .doc = "how far ahead on the MPC's predicted motion the body target lies"});
   }
+  bool operator==(const TsidParams&) const = default;
 };
 
 }  // namespace scoria::controller

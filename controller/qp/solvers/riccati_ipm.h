@@ -22,6 +22,7 @@ struct RiccatiIpmParams {
     a.Field("max_iterations", max_iterations, {.min = 1, .max = 200});
     a.Field("warm_start", warm_start, {.doc = "start from the last tick's solution"});
   }
+  bool operator==(const RiccatiIpmParams&) const = default;
 };
 
 /// Primal-dual interior point method for OcpQp with Mehrotra's predictor-corrector; each Newton
