@@ -36,8 +36,8 @@ struct Options {
 
 /// Median and 99th percentile of times, in microseconds.
 nlohmann::json Spread(const std::vector<double>& us) {
-  return {{"median_us", core::Quantile(us, 0.5)},
-          {"p99_us", core::Quantile(us, 0.99)},
+  return {{"median_us", core::SampleQuantile(us, 0.5)},
+          {"p99_us", core::SampleQuantile(us, 0.99)},
           {"calls", us.size()}};
 }
 

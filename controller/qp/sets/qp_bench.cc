@@ -23,7 +23,7 @@ double MedianMicroseconds(int repeats, Prepare&& prepare, Solve&& solve) {
     solve();
     times_us.push_back(watch.seconds() * kUsPerS);
   }
-  return core::Quantile(std::move(times_us), 0.5);
+  return core::SampleQuantile(std::move(times_us), 0.5);
 }
 
 /// Sums over the problems of a set.
@@ -39,7 +39,9 @@ struct Tally {
   }
   [[nodiscard]] int problems() const { return static_cast<int>(times_us.size()); }
   [[nodiscard]] double mean_iterations() const { return iterations / problems(); }
-  [[nodiscard]] double quantile(double share) const { return core::Quantile(times_us, share); }
+  [[nodiscard]] double quantile(double share) const {
+    return core::SampleQuantile(times_us, share);
+  }
 };
 
 constexpr double kMedian = 0.5, kP99 = 0.99;
