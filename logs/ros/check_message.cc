@@ -12,8 +12,6 @@
 namespace scoria::logs {
 namespace {
 
-constexpr std::size_t kMostPadding = 3;
-
 bool IsStrangeControl(char c) {
   const auto byte = static_cast<unsigned char>(c);
   return (byte < 0x20 && c != '\t' && c != '\n' && c != '\r') || byte == 0x7f;
@@ -29,26 +27,37 @@ void CheckText(std::string_view text) {
   throw CdrFault{fmt::format("not a text: \"{}\"", core::Shown(text)), ""};
 }
 
+template <bool kChecksText>
 struct CheckHandler {
   [[nodiscard]] CheckHandler Child(const StructLayout&, std::size_t) const { return {}; }
   [[nodiscard]] CheckHandler Element(std::size_t) const { return {}; }
   [[nodiscard]] bool MaySkip(const StructLayout& layout) const { return !layout.has_bool; }
   void Leaf(const FieldView& view) const {
-    if (view.type() != FieldType::kString) return;
+    if (!kChecksText || view.type() != FieldType::kString) return;
     if (view.size() == 1) return CheckText(view.Text());
     for (const std::string& text : view.Texts()) CheckText(text);
   }
   void Time(const FieldView&) const {}
 };
 
+template <bool kChecksText>
+std::size_t Walk(const MessageType& type, std::span<const std::byte> message) {
+  using Handler = CheckHandler<kChecksText>;
+  return MessageWalker<Handler>(type, message).Walk(Handler());
+}
+
 }  // namespace
 
+std::size_t MeasureRest(const MessageType& type, std::span<const std::byte> message) {
+  return Walk<false>(type, message);
+}
+
 void CheckMessage(const MessageType& type, std::span<const std::byte> message) {
-  const std::size_t left = MessageWalker<CheckHandler>(type, message).Walk({});
-  if (left > kMostPadding) {
+  const std::size_t rest = Walk<true>(type, message);
+  if (rest > kMostPadding) {
     throw MessageError(fmt::format(
         "{}: {} of {} bytes are left behind the last field (at most {} of padding are allowed)",
-        type.name(), left, message.size(), kMostPadding));
+        type.name(), rest, message.size(), kMostPadding));
   }
 }
 

@@ -51,7 +51,7 @@ double FieldView::Double(std::size_t i) const {
       return static_cast<double>(LoadUnsigned<std::uint64_t>(at, is_big_endian_));
     case FieldType::kTime: {
       const TimeParts time = LoadTime(at, is_big_endian_);
-      return time.sec + 1e-9 * time.nanosec;
+      return time.sec + time.nanosec / 1e9;
     }
     default:
       return static_cast<double>(Int(i));

@@ -106,7 +106,7 @@ class CandidateFinder {
     std::string origin = primary.definitions->name();
     if (primary.is_log) origin += fmt::format("{}", fmt::join(borrowed, ""));
     const bool is_own = primary.is_log && borrowed.empty();
-    return {std::move(type), std::move(origin), is_own, 0, 0, ""};
+    return {std::move(type), std::move(origin), is_own, 0, 0, "", 0};
   }
 
   std::vector<SourceRef> sources_;
@@ -126,6 +126,11 @@ std::string RefusalOf(const ChannelSchema& channel) {
                      core::Shown(schema));
 }
 
+/// The log's own, and no guess at how its vendor writes text.
+bool IsTrusted(const TypeCandidate& candidate) {
+  return candidate.is_own && !candidate.type.has_wstring();
+}
+
 }  // namespace
 
 TypeChoice::TypeChoice(std::string type_name, std::vector<TypeCandidate> candidates,
@@ -137,7 +142,7 @@ TypeChoice::TypeChoice(std::string type_name, std::vector<TypeCandidate> candida
 bool TypeChoice::IsSettled() const noexcept {
   if (candidates_.empty()) return true;
   const TypeCandidate& first = candidates_.front();
-  return first.is_own && first.fits > 0 && first.misfits == 0 && !first.type.has_wstring();
+  return IsTrusted(first) && first.fits > 0 && first.misfits == 0 && first.with_rest == 0;
 }
 
 void TypeChoice::Show(std::span<const std::byte> message) {
@@ -146,7 +151,11 @@ void TypeChoice::Show(std::span<const std::byte> message) {
   for (TypeCandidate& candidate : candidates_) {
     if (candidate.misfits > 0 && !candidate.is_own) continue;
     try {
-      CheckMessage(candidate.type, message);
+      if (!IsTrusted(candidate)) {
+        CheckMessage(candidate.type, message);
+      } else if (MeasureRest(candidate.type, message) > kMostPadding) {
+        ++candidate.with_rest;
+      }
       ++candidate.fits;
     } catch (const MessageError& error) {
       if (candidate.misfits++ == 0) candidate.first_misfit = error.what();
@@ -171,6 +180,10 @@ std::string TypeChoice::Report() const {
     if (choice->misfits > 0) {
       report += fmt::format(" ({} of {} messages do not fit it: {})", choice->misfits, shown_,
                             choice->first_misfit);
+    }
+    if (choice->with_rest > 0) {
+      report += fmt::format(" (bytes are left behind its last field in {} of {} messages)",
+                            choice->with_rest, shown_);
     }
     for (const TypeCandidate& other : candidates_) {
       if (&other == choice || other.misfits > 0 || other.fits == 0) continue;

@@ -26,19 +26,23 @@ struct TypeCandidate {
   MessageType type;
   std::string origin;   // "the bag", "built in, N = 20", "the bag, std_msgs/msg/Header built in"
   bool is_own = false;  // the log's, with all that it uses
-  // By TypeChoice:
+  // By TypeChoice, of the messages shown:
   std::uint64_t fits = 0, misfits = 0;
-  std::string first_misfit;  // why
+  std::string first_misfit;     // why
+  std::uint64_t with_rest = 0;  // of those that fit an own definition: more than padding is left
 };
 
 /// Which definition the messages of one channel follow. Two layouts may have one name, and a
 /// definition in a log may be wrong, so that the messages decide:
-/// - a definition is taken if every message shown fits it to the last byte, the log's own first;
-/// - the log's own is taken all the same if some fit it and no other definition fits all.
+/// - the log's own is taken if every message shown can be read by it; that it leaves bytes over is
+///   said, not held against it (widths of wstrings are told apart as if they were not its own);
+/// - else the first other one is that every message fits to the last byte, as CheckMessage has it;
+/// - else the log's own, if some messages can be read by it.
 /// Before any message is shown the first one is taken.
 class TypeChoice {
  public:
-  /// @param problem  why there are no candidates, or not the log's own; may be empty.
+  /// @param candidates  the likeliest first.
+  /// @param problem     why there are no candidates, or not the log's own; may be empty.
   TypeChoice(std::string type_name, std::vector<TypeCandidate> candidates, std::string problem);
 
   /// Holds a message against the definitions that may still be taken.
@@ -47,7 +51,7 @@ class TypeChoice {
   /// True when no further message can change what is taken.
   [[nodiscard]] bool IsSettled() const noexcept;
 
-  /// What is taken; null if nothing fits. Valid as long as this object, and until it is moved.
+  /// What is taken; null if nothing fits. Valid as long as this object or the one it is moved to.
   [[nodiscard]] const TypeCandidate* taken() const noexcept;
 
   /// One line for a report: what is taken ("the bag"; "built in, N = 20"), or why nothing is.
