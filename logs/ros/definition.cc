@@ -11,8 +11,9 @@
 namespace scoria::logs {
 namespace {
 
+/// Of 80 characters by its source; shorter ones are met.
 bool IsSeparator(std::string_view line) {
-  return line.size() >= 3 && line.find_first_not_of('=') == std::string_view::npos;
+  return line.size() >= 20 && line.find_first_not_of('=') == std::string_view::npos;
 }
 
 /// Takes lines off the front of a text.

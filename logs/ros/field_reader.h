@@ -24,6 +24,7 @@ class FieldReader {
   /// @param paths  as ResolveField takes them; one may be there twice.
   /// Errors: FieldPathError.
   FieldReader(const MessageType& type, const std::vector<std::string>& paths);
+  FieldReader(const MessageType&&, const std::vector<std::string>&) = delete;
 
   [[nodiscard]] const std::vector<ResolvedField>& fields() const noexcept { return fields_; }
 

@@ -189,8 +189,8 @@ class DeclarationParser {
     type.scope = scope_;
     if (TakeIf("sequence")) {
       Expect("<");
-      if (Is("sequence")) Fail("a sequence of sequences is not read");
       ParseAnnotations();
+      if (Is("sequence")) Fail("a sequence of sequences is not read");
       type = ParseType();
       type.is_sequence = true;
       if (TakeIf(",")) type.bound = ParseLength();

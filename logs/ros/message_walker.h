@@ -19,11 +19,10 @@ namespace scoria::logs {
 ///
 /// A handler is a small value that stands for one struct, member or element:
 ///   Handler Child(const StructLayout&, std::size_t i) const   for member i of the struct;
-///   Handler Element(std::size_t i) const     for an element of an array or sequence of structs;
-///   bool MaySkip(const StructLayout&) const  if it need not see anything of such a struct;
-///   void Leaf(const FieldView&) const        numbers or texts: one, or all of an array or
-///   sequence; void Time(const FieldView&) const        a struct of sec and nanosec, before its
-///   members.
+///   Handler Element(std::size_t i) const      for an element of several structs;
+///   bool MaySkip(const StructLayout&) const   if it need not see anything of such a struct;
+///   void Leaf(const FieldView&) const         numbers or texts: one, or all of several;
+///   void Time(const FieldView&) const         sec and nanosec as one, before they are shown.
 template <class Handler>
 class MessageWalker {
  public:

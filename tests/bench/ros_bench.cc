@@ -62,7 +62,7 @@ void QuadStateMapping(benchmark::State& state) {
     paths.push_back(fmt::format("joint_state.velocity[{}]", i));
     paths.push_back(fmt::format("ground_contact_force[{}]", i));
   }
-  ReadAll(state, choice.taken()->type, paths, Zeros(1249));
+  ReadAll(state, choice.taken()->type, paths, Zeros(1253));
 }
 BENCHMARK(QuadStateMapping);
 

@@ -154,6 +154,8 @@ TEST(IdlParser, ErrorsNameLineTextAndRule) {
             "T.idl:1: \":\": a struct that inherits is not read");
   EXPECT_EQ(ErrorOf("struct A { sequence<sequence<long>> x; };"),
             "T.idl:1: \"sequence\": a sequence of sequences is not read");
+  EXPECT_EQ(ErrorOf("struct A { sequence<@x sequence<long>> x; };"),
+            "T.idl:1: \"sequence\": a sequence of sequences is not read");
   EXPECT_EQ(ErrorOf("typedef long R[3]; struct A {\nsequence<R> x; };"),
             "T.idl:2: \"R\": a sequence of arrays or sequences is not read");
   EXPECT_EQ(ErrorOf("typedef sequence<long> R; struct A { R x[2]; };"),

@@ -137,10 +137,10 @@ TEST(Ros2Msg, LinesCountThroughTheWholeSchema) {
   const auto parse = [](const std::string& schema) {
     return test::ErrorOf<DefinitionError>([&] { (void)ParseRos2Msg(schema, "pkg/msg/Type", "S"); });
   };
-  EXPECT_EQ(parse("a/Point p\n=====\nMSG: a/Point\nfloat64 x\nfloat64"),
+  EXPECT_EQ(parse("a/Point p\n====================\nMSG: a/Point\nfloat64 x\nfloat64"),
             "S:5: \"float64\": a type is followed by the name of a field");
   EXPECT_EQ(
-      parse("int8 a\n=====\n\nint8 b"),
+      parse("int8 a\n====================\n\nint8 b"),
       "S:4: \"int8 b\": a line of = is followed by \"MSG: pkg/Name\" or \"IDL: pkg/msg/Name\"");
 }
 
