@@ -11,11 +11,6 @@
 namespace scoria::sim {
 namespace {
 
-/// m (|d|² 1 − d dᵀ): inertia of a point mass at d.
-Mat3 PointInertia(double mass, const Vec3& d) noexcept {
-  return mass * (d.squaredNorm() * Mat3::Identity() - d * d.transpose());
-}
-
 std::string Text(const Vec3& p) {
   return fmt::format("({:.3f}, {:.3f}, {:.3f}) m", p[0], p[1], p[2]);
 }
@@ -55,20 +50,20 @@ std::string PayloadEvent::Problem() const {
   return "";
 }
 
-core::ModelParameters AddBodies(const core::ModelParameters& trunk,
-                                std::span<const RigidMass> bodies) noexcept {
-  core::ModelParameters out = trunk;
-  Vec3 moment = trunk.trunk_mass_kg * trunk.p_BC_trunk;
-  for (const RigidMass& body : bodies) {
-    out.trunk_mass_kg += body.mass_kg;
-    moment += body.mass_kg * body.p_BP;
+SpatialInertia AddBodies(const SpatialInertia& trunk,
+                         std::span<const SpatialInertia> bodies) noexcept {
+  SpatialInertia out = trunk;
+  Vec3 moment = trunk.mass_kg * trunk.p_OC;
+  for (const SpatialInertia& body : bodies) {
+    out.mass_kg += body.mass_kg;
+    moment += body.mass_kg * body.p_OC;
   }
   // Also where all bodies are massless: moment / mass need not give back the bare trunk's COM.
-  if (out.trunk_mass_kg == trunk.trunk_mass_kg) return trunk;
-  out.p_BC_trunk = moment / out.trunk_mass_kg;
-  out.I_C_B_trunk += PointInertia(trunk.trunk_mass_kg, trunk.p_BC_trunk - out.p_BC_trunk);
-  for (const RigidMass& body : bodies) {
-    out.I_C_B_trunk += body.I_P_B + PointInertia(body.mass_kg, body.p_BP - out.p_BC_trunk);
+  if (out.mass_kg == trunk.mass_kg) return trunk;
+  out.p_OC = moment / out.mass_kg;
+  out.I_C += core::PointInertia(trunk.mass_kg, trunk.p_OC - out.p_OC);
+  for (const SpatialInertia& body : bodies) {
+    out.I_C += body.I_C + core::PointInertia(body.mass_kg, body.p_OC - out.p_OC);
   }
   return out;
 }
@@ -108,13 +103,13 @@ Quat PayloadRack::Item::TurnAt(double time_s) const noexcept {
   return t < 1.0 ? q_from.slerp(t, q_to) : q_to;
 }
 
-RigidMass PayloadRack::Item::At(double time_s) const noexcept {
+SpatialInertia PayloadRack::Item::At(double time_s) const noexcept {
   const double share = ShareAt(time_s);
   const Quat turn = TurnAt(time_s);
-  RigidMass out{share * whole.mass_kg, PositionAt(time_s), share * whole.I_P_B};
+  SpatialInertia out{share * whole.mass_kg, PositionAt(time_s), share * whole.I_C};
   if (turn.coeffs() == Quat::Identity().coeffs()) return out;
   const Mat3 R = turn.toRotationMatrix();
-  out.I_P_B = R * out.I_P_B * R.transpose();
+  out.I_C = R * out.I_C * R.transpose();
   return out;
 }
 
@@ -122,7 +117,7 @@ bool PayloadRack::Item::IsGone(double time_s) const noexcept {
   return share_to == 0.0 && ShareAt(time_s) == 0.0;
 }
 
-PayloadRack::PayloadRack(const core::ModelParameters& bare_trunk, std::vector<PayloadEvent> events)
+PayloadRack::PayloadRack(const SpatialInertia& bare_trunk, std::vector<PayloadEvent> events)
     : bare_trunk_(bare_trunk),
       trunk_(bare_trunk),
       events_(std::move(events)),
@@ -146,7 +141,7 @@ std::vector<TrunkChange> PayloadRack::Update(const core::EventClock& now) {
     for (Item& item : items_) {
       if (item.attach_velocity == velocity) item.now = item.At(time_s);
     }
-    const core::ModelParameters trunk = Compose();
+    const SpatialInertia trunk = Compose();
     if (trunk == trunk_) continue;
     trunk_ = trunk;
     changes.push_back({trunk, velocity});
@@ -176,9 +171,9 @@ std::string PayloadRack::Begin(const PayloadEvent& event, double begin_s) {
 std::string PayloadRack::Add(const PayloadEvent& event, const Ramp& ramp) {
   Item item;
   item.body = *event.body;
-  item.whole = item.now = ToRigidMass(item.body);
+  item.whole = item.now = ToInertia(item.body);
   item.now.mass_kg = 0.0;
-  item.now.I_P_B = Mat3::Zero();
+  item.now.I_C = Mat3::Zero();
   item.share_ramp = ramp;
   item.p_BP_from = item.p_BP_to = item.body.p_BP_m;
   item.attach_velocity = event.attach_velocity;
@@ -220,8 +215,8 @@ std::string PayloadRack::Lose(const PayloadEvent& event, const Ramp& ramp, Item&
                      Over(event.duration_s), event.share * before_kg, before_kg, place);
 }
 
-core::ModelParameters PayloadRack::Compose() const {
-  std::vector<RigidMass> bodies;
+SpatialInertia PayloadRack::Compose() const {
+  std::vector<SpatialInertia> bodies;
   for (const Item& item : items_) bodies.push_back(item.now);
   return AddBodies(bare_trunk_, bodies);
 }

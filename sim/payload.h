@@ -17,13 +17,13 @@
 namespace scoria::sim {
 
 using core::PayloadParams;
-using core::RigidMass;
-using core::ToRigidMass;
+using core::SpatialInertia;
+using core::ToInertia;
 
 /// The trunk with bodies fixed to it: mass, centre of mass and inertia of them all. Massless bodies
 /// leave no trace, not even in the last bit.
-[[nodiscard]] core::ModelParameters AddBodies(const core::ModelParameters& trunk,
-                                              std::span<const RigidMass> bodies) noexcept;
+[[nodiscard]] SpatialInertia AddBodies(const SpatialInertia& trunk,
+                                       std::span<const SpatialInertia> bodies) noexcept;
 
 enum class PayloadAction { kAdd, kMove, kRemove, kShed };
 constexpr std::array<std::pair<PayloadAction, std::string_view>, 4> EnumNames(PayloadAction) {
@@ -80,7 +80,7 @@ struct PayloadEvent {
 
 /// What the trunk's inertia changes to.
 struct TrunkChange {
-  core::ModelParameters trunk;
+  SpatialInertia trunk;
   AttachVelocity attach_velocity = AttachVelocity::kMatched;
   bool operator==(const TrunkChange&) const = default;
 };
@@ -91,7 +91,7 @@ struct TrunkChange {
 class PayloadRack {
  public:
   /// @pre  PayloadProblem(events) is empty, and Problem() of each.
-  PayloadRack(const core::ModelParameters& bare_trunk, std::vector<PayloadEvent> events);
+  PayloadRack(const SpatialInertia& bare_trunk, std::vector<PayloadEvent> events);
 
   /// Begins events whose time has come, and goes on with gradual ones.
   /// @returns the changes to make, in order; none, one, or two if some bodies moved with the trunk
@@ -111,17 +111,17 @@ class PayloadRack {
   };
   struct Item {
     PayloadParams body;
-    RigidMass whole;  // of the unharmed body, where it was added
+    SpatialInertia whole;  // of the unharmed body, where it was added
     Ramp share_ramp, pose_ramp;
     double share_from = 0.0, share_to = 1.0;
     Vec3 p_BP_from = Vec3::Zero(), p_BP_to = Vec3::Zero();
     Quat q_from = Quat::Identity(), q_to = Quat::Identity();
     AttachVelocity attach_velocity = AttachVelocity::kMatched;
-    RigidMass now;
+    SpatialInertia now;
     [[nodiscard]] double ShareAt(double time_s) const noexcept;
     [[nodiscard]] Vec3 PositionAt(double time_s) const noexcept;
     [[nodiscard]] Quat TurnAt(double time_s) const noexcept;
-    [[nodiscard]] RigidMass At(double time_s) const noexcept;
+    [[nodiscard]] SpatialInertia At(double time_s) const noexcept;
     [[nodiscard]] bool IsGone(double time_s) const noexcept;
   };
 
@@ -129,9 +129,9 @@ class PayloadRack {
   [[nodiscard]] std::string Add(const PayloadEvent& event, const Ramp& ramp);
   [[nodiscard]] std::string Move(const PayloadEvent& event, const Ramp& ramp, Item& item);
   [[nodiscard]] std::string Lose(const PayloadEvent& event, const Ramp& ramp, Item& item);
-  [[nodiscard]] core::ModelParameters Compose() const;
+  [[nodiscard]] SpatialInertia Compose() const;
 
-  core::ModelParameters bare_trunk_, trunk_;
+  SpatialInertia bare_trunk_, trunk_;
   std::vector<PayloadEvent> events_;
   std::vector<core::EventTimer> timers_;  // of the events
   std::vector<Item> items_;

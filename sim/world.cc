@@ -272,7 +272,7 @@ void World::Impl::UpdateTruth() {
   // Semi-implicit Euler is a leapfrog: its velocity belongs to half a step ago.
   const Vec3 p_WC_then = whole_body.p_WC - 0.5 * params.step_s * whole_body.v_WC;
   truth.energy.potential_J = -whole_body.mass_kg * gravity_W.dot(p_WC_then);
-  truth.trunk = model.parameters();
+  truth.trunk = model.parameters().trunk;
   if (!sliding) return;
   const double m = sliding->mass_kg();
   truth.mass_kg += m;
@@ -333,7 +333,7 @@ void World::Reset(const RobotState& state) {
 void World::Step(const LegArray<Vec3>& tau_Nm) {
   Impl& w = *impl_;
   w.FindContacts();
-  const Vec3 p_BC_W = w.truth.state.R_WB * w.robot.trunk.p_LC;
+  const Vec3 p_BC_W = w.truth.state.R_WB * w.robot.trunk.p_OC;
   Vec6 wrench_B_W;
   wrench_B_W << w.f_trunk_W, w.t_trunk_W + p_BC_W.cross(w.f_trunk_W);
   const double dt = w.params.step_s;
@@ -363,12 +363,12 @@ void World::SetTrunkWrench(const Vec3& f_W, const Vec3& t_W) {
   impl_->t_trunk_W = t_W;
 }
 
-void World::SetTrunkParameters(const core::ModelParameters& trunk, AttachVelocity attach_velocity) {
+void World::SetTrunkParameters(const core::SpatialInertia& trunk, AttachVelocity attach_velocity) {
   Impl& w = *impl_;
   EnergyLedger& e = w.truth.energy;
   const double before_J = e.kinetic_J + e.potential_J;
   const Mat18 H_before = AssembleMassMatrix(w.whole_body);
-  w.model.SetParameters(trunk);
+  w.model.SetParameters({trunk});
   if (attach_velocity == AttachVelocity::kRest) {
     w.model.Calc(w.truth.state, w.whole_body);
     w.Impact(H_before);

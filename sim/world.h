@@ -51,7 +51,7 @@ struct Truth {
   Vec3 a_WB = Vec3::Zero();               // m/s^2, mean over the last step
   Vec3 p_WC = Vec3::Zero();               // centre of mass, payloads included
   double mass_kg = 0.0;                   // likewise
-  core::ModelParameters trunk;            // with all that is fixed to it
+  core::SpatialInertia trunk;             // with all that is fixed to it
   double slide_m = 0.0, slide_mps = 0.0;  // of a sliding payload
   LegArray<Vec3> p_WF = ZeroPerLeg();     // foot sphere centres
   LegArray<Vec3> f_F_W = ZeroPerLeg();    // N, ground on foot
@@ -96,7 +96,7 @@ class World {
   /// in a perfectly plastic impact, H' v' = H v over all coordinates, so the robot's linear and
   /// angular momentum stay; the acceleration of the next step contains that impact.
   /// @pre  the mass is positive, and the inertia with it.
-  void SetTrunkParameters(const core::ModelParameters& trunk, AttachVelocity attach_velocity);
+  void SetTrunkParameters(const core::SpatialInertia& trunk, AttachVelocity attach_velocity);
 
  private:
   struct Impl;

@@ -127,7 +127,7 @@ msg::QuadModel MakeQuadModel(const StepRecord& r) {
   m.header = MakeHeader(r.time_s, "base_link");
   m.mass = r.control.model_mass_kg;
   m.com = ToArray(learned.p_BC);
-  const Mat3& I = learned.parameters.I_C_B_trunk;
+  const Mat3& I = learned.parameters.trunk.I_C;
   std::copy(I.data(), I.data() + I.size(), m.inertia.begin());
   return m;
 }

@@ -32,8 +32,8 @@ void PrintRobot(const core::RobotDescription& robot) {
   for (int i = 0; i < core::kNumBodies; ++i) {
     const core::Body& b = robot.body(i);
     fmt::print("{:24} {:8.3f} {:8.4f}{:8.4f}{:8.4f}   {:10.3g} {:10.3g} {:10.3g}\n", b.name,
-               b.mass_kg, b.p_LC.x(), b.p_LC.y(), b.p_LC.z(), b.I_C_L(0, 0), b.I_C_L(1, 1),
-               b.I_C_L(2, 2));
+               b.mass_kg, b.p_OC.x(), b.p_OC.y(), b.p_OC.z(), b.I_C(0, 0), b.I_C(1, 1),
+               b.I_C(2, 2));
   }
   fmt::print("{:24} {:>18} {:>8} {:>8} {:>20}\n", "joint", "limits rad", "Nm", "rad/s",
              "URDF sign and zero");

@@ -19,7 +19,7 @@ Vec3 HandOver::Clamp(const Vec3& dpi) const noexcept {
   const core::Body& trunk = robot_.trunk;
   const double mass = std::clamp(trunk.mass_kg + dpi[0], params_.min_trunk_share * trunk.mass_kg,
                                  trunk.mass_kg + params_.max_payload_kg);
-  const Vec2 nominal = trunk.mass_kg * trunk.p_LC.head<2>();
+  const Vec2 nominal = trunk.mass_kg * trunk.p_OC.head<2>();
   const Vec2 c = (nominal + dpi.tail<2>()) / mass;
   const Vec2 inside = c.cwiseMax(-hips_m_).cwiseMin(hips_m_);
   Vec3 out;
@@ -30,29 +30,28 @@ Vec3 HandOver::Clamp(const Vec3& dpi) const noexcept {
 Vec3 HandOver::Continue(const core::ModelParameters& in_use) noexcept {
   const core::Body& trunk = robot_.trunk;
   const Vec2 excess =
-      in_use.trunk_mass_kg * in_use.p_BC_trunk.head<2>() - trunk.mass_kg * trunk.p_LC.head<2>();
-  handed_ = goal_ = {in_use.trunk_mass_kg - trunk.mass_kg, excess.x(), excess.y()};
+      in_use.trunk.mass_kg * in_use.trunk.p_OC.head<2>() - trunk.mass_kg * trunk.p_OC.head<2>();
+  handed_ = goal_ = {in_use.trunk.mass_kg - trunk.mass_kg, excess.x(), excess.y()};
   return handed_;
 }
 
 core::ModelParameters HandOver::CalcTrunk(const Vec3& dpi) const noexcept {
   const core::Body& trunk = robot_.trunk;
   core::ModelParameters out;
-  out.trunk_mass_kg = trunk.mass_kg + dpi[0];
+  out.trunk.mass_kg = trunk.mass_kg + dpi[0];
   const Vec3 excess(dpi[1], dpi[2], dpi[0] * params_.payload_height_m);
-  out.p_BC_trunk = (trunk.mass_kg * trunk.p_LC + excess) / out.trunk_mass_kg;
+  out.trunk.p_OC = (trunk.mass_kg * trunk.p_OC + excess) / out.trunk.mass_kg;
   if (dpi[0] <= 0.0) {
     // What was taken away may have been anywhere: a lighter trunk of the same shape.
-    out.I_C_B_trunk = trunk.I_C_L * (out.trunk_mass_kg / trunk.mass_kg);
+    out.trunk.I_C = trunk.I_C * (out.trunk.mass_kg / trunk.mass_kg);
     return out;
   }
   // The place of a small mass is uncertain, but never outside the trunk.
   Vec3 p_BP = excess / dpi[0];
   p_BP.head<2>() = p_BP.head<2>().cwiseMax(-hips_m_).cwiseMin(hips_m_);
-  const Vec3 d = p_BP - trunk.p_LC;
-  const double reduced = trunk.mass_kg * dpi[0] / out.trunk_mass_kg;
-  out.I_C_B_trunk =
-      trunk.I_C_L + reduced * (d.squaredNorm() * Mat3::Identity() - d * d.transpose());
+  const Vec3 d = p_BP - trunk.p_OC;
+  const double reduced = trunk.mass_kg * dpi[0] / out.trunk.mass_kg;
+  out.trunk.I_C = trunk.I_C + core::PointInertia(reduced, d);
   return out;
 }
 

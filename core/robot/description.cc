@@ -37,18 +37,16 @@ struct Pose {
   }
 };
 
-/// Parallel axis theorem: inertia of a point mass at `d` from the reference point.
-Mat3 PointInertia(double mass, const Vec3& d) {
-  return mass * (d.squaredNorm() * Mat3::Identity() - d * d.transpose());
-}
-
-void MergeInertia(Body& body, double mass, const Vec3& p_LC, const Mat3& I_C_L) {
-  if (mass <= 0.0) return;
-  const double total = body.mass_kg + mass;
-  const Vec3 c = (body.mass_kg * body.p_LC + mass * p_LC) / total;
-  body.I_C_L += PointInertia(body.mass_kg, body.p_LC - c) + I_C_L + PointInertia(mass, p_LC - c);
+/// As Join, with the terms of the link summed first: logs are verified bit for bit, and every
+/// robot's inertia is the sum in this order.
+void MergeInertia(Body& body, const SpatialInertia& link) {
+  if (link.mass_kg <= 0.0) return;
+  const double total = body.mass_kg + link.mass_kg;
+  const Vec3 c = (body.mass_kg * body.p_OC + link.mass_kg * link.p_OC) / total;
+  body.I_C += PointInertia(body.mass_kg, body.p_OC - c) + link.I_C +
+              PointInertia(link.mass_kg, link.p_OC - c);
   body.mass_kg = total;
-  body.p_LC = c;
+  body.p_OC = c;
 }
 
 /// Walks the URDF tree, merging fixed links into the thirteen bodies.
@@ -226,7 +224,7 @@ class TreeWalker {
       Fail(config_, link.name, "inertia must not be negative");
     }
     const Pose X_C = X_L * in.origin;
-    MergeInertia(BodyAt(body), in.mass, X_C.p, X_C.R * I * X_C.R.transpose());
+    MergeInertia(BodyAt(body), {in.mass, X_C.p, X_C.R * I * X_C.R.transpose()});
   }
 
   void AddShapes(const urdf::Link& link, int body, const Pose& X_L) {
@@ -350,8 +348,7 @@ void DrawBareBodies(RobotDescription& robot) {
 
 /// Fixes a body to the trunk: its inertia, and a box to be seen. Nothing collides with it.
 void Mount(const PayloadParams& params, RobotDescription& robot) {
-  const RigidMass body = ToRigidMass(params);
-  MergeInertia(robot.trunk, body.mass_kg, body.p_BP, body.I_P_B);
+  MergeInertia(robot.trunk, ToInertia(params));
   if (params.size_m == Vec3::Zero()) return;
   Shape box;
   box.size_m = params.size_m;

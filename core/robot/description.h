@@ -135,13 +135,9 @@ struct RobotConfig {
   }
 };
 
-/// A rigid body with all links that are fixed to it merged in. L is its link frame, C its centre of
-/// mass.
-struct Body {
+/// A rigid body with all links that are fixed to it merged in; its inertia is in its link frame L.
+struct Body : SpatialInertia {
   std::string name;
-  double mass_kg = 0.0;
-  Vec3 p_LC = Vec3::Zero();
-  Mat3 I_C_L = Mat3::Zero();  // kg m^2, about C, in L
 };
 
 /// A revolute joint in the house convention: HAA about +x, HFE and KFE about +y of the trunk when

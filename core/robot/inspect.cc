@@ -21,7 +21,7 @@ bool Differ(double a, double b, double floor) {
 
 /// Principal moments satisfy a + b >= c for any distribution of mass.
 void CheckInertia(const Body& body, std::vector<std::string>& out) {
-  const Vec3 m = Eigen::SelfAdjointEigenSolver<Mat3>(body.I_C_L).eigenvalues();
+  const Vec3 m = Eigen::SelfAdjointEigenSolver<Mat3>(body.I_C).eigenvalues();
   if (m[0] <= 0.0) {
     out.push_back(fmt::format("{}: inertia has a principal moment of {:.3g} kg m^2, not positive",
                               body.name, m[0]));
@@ -53,11 +53,11 @@ void CheckMirror(const RobotDescription& robot, Leg left, Leg right,
       tell("mass of the " + name + " link", bl.mass_kg, br.mass_kg, "kg");
     for (int i = 0; i < 3; ++i) {
       const double sign = i == 1 ? -1.0 : 1.0;
-      if (Differ(bl.p_LC[i], sign * br.p_LC[i], kFloor_m))
-        tell(fmt::format("{} of the COM of the {} link", "xyz"[i], name), bl.p_LC[i], br.p_LC[i],
+      if (Differ(bl.p_OC[i], sign * br.p_OC[i], kFloor_m))
+        tell(fmt::format("{} of the COM of the {} link", "xyz"[i], name), bl.p_OC[i], br.p_OC[i],
              "m");
-      if (Differ(bl.I_C_L(i, i), br.I_C_L(i, i), kFloor_kgm2))
-        tell(fmt::format("I{0}{0} of the {1} link", "xyz"[i], name), bl.I_C_L(i, i), br.I_C_L(i, i),
+      if (Differ(bl.I_C(i, i), br.I_C(i, i), kFloor_kgm2))
+        tell(fmt::format("I{0}{0} of the {1} link", "xyz"[i], name), bl.I_C(i, i), br.I_C(i, i),
              "kg m^2");
       if (Differ(l.joints[j].p_PJ[i], sign * r.joints[j].p_PJ[i], kFloor_m))
         tell(fmt::format("{} of the {} joint", "xyz"[i], name), l.joints[j].p_PJ[i],

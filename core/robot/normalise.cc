@@ -73,8 +73,8 @@ void AlignFrames(RobotDescription& robot, Leg which) {
     joint.R_PJ.setIdentity();
     joint.axis_J = R * joint.axis_J;
     Body& link = leg.links[j];
-    link.p_LC = R * link.p_LC;
-    link.I_C_L = R * link.I_C_L * R.transpose();
+    link.p_OC = R * link.p_OC;
+    link.I_C = R * link.I_C * R.transpose();
     if (j < 2) {
       leg.joints[j + 1].p_PJ = R * leg.joints[j + 1].p_PJ;
       leg.joints[j + 1].R_PJ = R * leg.joints[j + 1].R_PJ;

@@ -27,7 +27,7 @@ std::string PayloadParams::Problem() const {
   return "";
 }
 
-RigidMass ToRigidMass(const PayloadParams& payload) noexcept {
+SpatialInertia ToInertia(const PayloadParams& payload) noexcept {
   const bool is_given = payload.inertia_kgm2 != Vec3::Zero();
   const Vec3 moments =
       is_given ? payload.inertia_kgm2 : BoxInertia(payload.mass_kg, payload.size_m);

@@ -4,17 +4,9 @@
 #include <string>
 
 #include "core/config/archive.h"
-#include "core/math/types.h"
+#include "core/math/spatial_inertia.h"
 
 namespace scoria::core {
-
-/// A rigid body as a payload of the trunk has it. P is its centre of mass.
-struct RigidMass {
-  double mass_kg = 0.0;
-  Vec3 p_BP = Vec3::Zero();
-  Mat3 I_P_B = Mat3::Zero();  // kg m^2, about P, in B's axes
-  bool operator==(const RigidMass&) const = default;
-};
 
 /// A body that the trunk can carry.
 struct PayloadParams {
@@ -43,6 +35,7 @@ struct PayloadParams {
   bool operator==(const PayloadParams&) const = default;
 };
 
-[[nodiscard]] RigidMass ToRigidMass(const PayloadParams& payload) noexcept;
+/// Of the payload's body, in B.
+[[nodiscard]] SpatialInertia ToInertia(const PayloadParams& payload) noexcept;
 
 }  // namespace scoria::core

@@ -17,26 +17,6 @@ Mat3 AxisRotation(const Vec3& axis, double angle) noexcept {
   return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
 }
 
-/// m (|d|² 1 − d dᵀ): inertia of a point mass at d.
-Mat3 PointInertia(double mass, const Vec3& d) noexcept {
-  return mass * (d.squaredNorm() * Mat3::Identity() - d * d.transpose());
-}
-
-/// Several bodies joined: mass, COM from B's origin, inertia about that COM. In W.
-struct Composite {
-  double mass = 0.0;
-  Vec3 c = Vec3::Zero();
-  Mat3 I = Mat3::Zero();
-};
-
-Composite Join(const Composite& a, const Composite& b) noexcept {
-  Composite out;
-  out.mass = a.mass + b.mass;
-  out.c = (a.mass * a.c + b.mass * b.c) / out.mass;
-  out.I = a.I + b.I + PointInertia(a.mass, a.c - out.c) + PointInertia(b.mass, b.c - out.c);
-  return out;
-}
-
 /// Motion of a link at zero generalised acceleration: `o` joint origin from B's origin, `a_o` its
 /// acceleration, which starts from +g at the trunk so that gravity enters every force below.
 struct LinkMotion {
@@ -48,12 +28,12 @@ struct Wrench {
   Vec3 f = Vec3::Zero(), t = Vec3::Zero();  // t about B's origin
 };
 
-/// Force that moves a body as `m` says.
-Wrench InertialWrench(const Composite& body, const LinkMotion& m) noexcept {
-  const Vec3 oc = body.c - m.o;
+/// Force that moves a body as `m` says; its inertia is from B's origin, in W.
+Wrench InertialWrench(const SpatialInertia& body, const LinkMotion& m) noexcept {
+  const Vec3 oc = body.p_OC - m.o;
   Wrench out;
-  out.f = body.mass * (m.a_o + m.alpha.cross(oc) + m.w.cross(m.w.cross(oc)));
-  out.t = body.I * m.alpha + m.w.cross(body.I * m.w) + body.c.cross(out.f);
+  out.f = body.mass_kg * (m.a_o + m.alpha.cross(oc) + m.w.cross(m.w.cross(oc)));
+  out.t = body.I_C * m.alpha + m.w.cross(body.I_C * m.w) + body.p_OC.cross(out.f);
   return out;
 }
 
@@ -72,8 +52,8 @@ LinkMotion StepToLink(const LinkMotion& parent, const JointDescription& joint, d
   return m;
 }
 
-Composite InWorld(const Body& body, const LinkMotion& m) noexcept {
-  return {body.mass_kg, m.o + m.R * body.p_LC, m.R * body.I_C_L * m.R.transpose()};
+SpatialInertia InWorld(const SpatialInertia& body, const LinkMotion& m) noexcept {
+  return Transform(m.R, m.o, body);
 }
 
 void CalcFoot(const LegDescription& leg, const std::array<LinkMotion, 3>& links, Leg which,
@@ -98,9 +78,7 @@ void CalcFoot(const LegDescription& leg, const std::array<LinkMotion, 3>& links,
 }  // namespace
 
 WholeBodyModel::WholeBodyModel(const RobotDescription& robot, const Vec3& gravity_W)
-    : robot_(robot),
-      gravity_W_(gravity_W),
-      parameters_{robot.trunk.mass_kg, robot.trunk.p_LC, robot.trunk.I_C_L} {}
+    : robot_(robot), gravity_W_(gravity_W), parameters_{robot.trunk} {}
 
 void WholeBodyModel::SetParameters(const ModelParameters& parameters) noexcept {
   parameters_ = parameters;
@@ -110,27 +88,26 @@ void WholeBodyModel::Calc(const RobotState& state, WholeBody& out) const noexcep
   out.state = state;
   const LinkMotion trunk{state.R_WB, Vec3::Zero(), state.w_WB, Vec3::Zero(),
                          state.v_WB, -gravity_W_,  {}};
-  const Body trunk_body{
-      {}, parameters_.trunk_mass_kg, parameters_.p_BC_trunk, parameters_.I_C_B_trunk};
-  Composite total = InWorld(trunk_body, trunk);
+  SpatialInertia total = InWorld(parameters_.trunk, trunk);
   Wrench total_wrench = InertialWrench(total, trunk);
-  Vec3 momentum = total.mass * (state.v_WB + state.w_WB.cross(total.c));
+  Vec3 momentum = total.mass_kg * (state.v_WB + state.w_WB.cross(total.p_OC));
 
   for (const Leg leg : kLegs) {
     const LegDescription& description = robot_.legs[leg];
     std::array<LinkMotion, 3> links;
-    std::array<Composite, 3> bodies;
+    std::array<SpatialInertia, 3> bodies;
     for (std::size_t j = 0; j < 3; ++j) {
       const auto k = static_cast<Eigen::Index>(j);
       links[j] = StepToLink(j == 0 ? trunk : links[j - 1], description.joints[j], state.q[leg][k],
                             state.qd[leg][k]);
       bodies[j] = InWorld(description.links[j], links[j]);
-      momentum += bodies[j].mass * (links[j].v_o + links[j].w.cross(bodies[j].c - links[j].o));
+      momentum +=
+          bodies[j].mass_kg * (links[j].v_o + links[j].w.cross(bodies[j].p_OC - links[j].o));
     }
     CalcFoot(description, links, leg, gravity_W_, out);
 
     // Tip to root: composites give H, wrenches give h.
-    Composite outer = bodies[2];
+    SpatialInertia outer = bodies[2];
     Wrench wrench = InertialWrench(bodies[2], links[2]);
     for (std::size_t j = 3; j-- > 0;) {
       if (j < 2) {
@@ -142,8 +119,8 @@ void WholeBodyModel::Calc(const RobotState& state, WholeBody& out) const noexcep
       const auto col = static_cast<Eigen::Index>(j);
       const LinkMotion& link = links[j];
       out.h_l[leg][col] = link.z.dot(wrench.t - link.o.cross(wrench.f));
-      const Vec3 f = outer.mass * link.z.cross(outer.c - link.o);  // force for unit qdd_j
-      const Vec3 t = outer.I * link.z + outer.c.cross(f);
+      const Vec3 f = outer.mass_kg * link.z.cross(outer.p_OC - link.o);  // force for unit qdd_j
+      const Vec3 t = outer.I_C * link.z + outer.p_OC.cross(f);
       out.H_Bl[leg].col(col) << f, t;
       for (std::size_t k = 0; k <= j; ++k) {
         const auto row = static_cast<Eigen::Index>(k);
@@ -157,15 +134,15 @@ void WholeBodyModel::Calc(const RobotState& state, WholeBody& out) const noexcep
     total_wrench.t += wrench.t;
   }
 
-  out.mass_kg = total.mass;
-  out.p_WC = state.p_WB + total.c;
-  out.v_WC = momentum / total.mass;
-  out.I_C_W = total.I;
-  const Mat3 S = Skew(total.c);
-  out.H_BB.topLeftCorner<3, 3>() = total.mass * Mat3::Identity();
-  out.H_BB.topRightCorner<3, 3>() = -total.mass * S;
-  out.H_BB.bottomLeftCorner<3, 3>() = total.mass * S;
-  out.H_BB.bottomRightCorner<3, 3>() = total.I + PointInertia(total.mass, total.c);
+  out.mass_kg = total.mass_kg;
+  out.p_WC = state.p_WB + total.p_OC;
+  out.v_WC = momentum / total.mass_kg;
+  out.I_C_W = total.I_C;
+  const Mat3 S = Skew(total.p_OC);
+  out.H_BB.topLeftCorner<3, 3>() = total.mass_kg * Mat3::Identity();
+  out.H_BB.topRightCorner<3, 3>() = -total.mass_kg * S;
+  out.H_BB.bottomLeftCorner<3, 3>() = total.mass_kg * S;
+  out.H_BB.bottomRightCorner<3, 3>() = total.I_C + PointInertia(total.mass_kg, total.p_OC);
   out.h_B << total_wrench.f, total_wrench.t;
 }
 

@@ -8,9 +8,7 @@ namespace scoria::core {
 
 /// What the controller believes of the robot's inertia beyond its URDF; adaptation updates it.
 struct ModelParameters {
-  double trunk_mass_kg = 0.0;
-  Vec3 p_BC_trunk = Vec3::Zero();   // COM of the trunk body in B
-  Mat3 I_C_B_trunk = Mat3::Zero();  // about that COM
+  SpatialInertia trunk;  // in B
   bool operator==(const ModelParameters&) const = default;
 };
 

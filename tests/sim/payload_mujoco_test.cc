@@ -29,8 +29,8 @@ TEST(PayloadAgainstMujoco, MassMatrixAndBias) {
   test::MujocoModel mujoco(test::Go2(),
                            {.gravity_mps2 = kGravity, .payloads = {box, given, point}});
   core::WholeBodyModel model(test::Go2(), kGravity);
-  const std::vector<RigidMass> bodies = {ToRigidMass(box), ToRigidMass(given), ToRigidMass(point)};
-  model.SetParameters(AddBodies(model.parameters(), bodies));
+  const std::vector<SpatialInertia> bodies = {ToInertia(box), ToInertia(given), ToInertia(point)};
+  model.SetParameters({AddBodies(model.parameters().trunk, bodies)});
   core::WholeBody wb;
   core::Rng rng{22, 0, core::Stream::kSensor};
   for (int trial = 0; trial < 50; ++trial) {

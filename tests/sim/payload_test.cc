@@ -19,10 +19,7 @@ core::EventClock At(double time_s, double walked_m) { return {time_s, walked_m, 
 
 const Vec3 kGravity(0.0, 0.0, -9.81);
 
-core::ModelParameters BareTrunk() {
-  const core::Body& trunk = test::Go2().trunk;
-  return {trunk.mass_kg, trunk.p_LC, trunk.I_C_L};
-}
+SpatialInertia BareTrunk() { return test::Go2().trunk; }
 
 PayloadParams Plate() {
   return {"plate", 5.0, {0.02, 0.05, 0.09}, {0.1, 0.2, 0.3}, {0.2, 0.2, 0.02}};
@@ -44,15 +41,15 @@ PayloadEvent EventAt(double at_s, PayloadAction action, const std::string& paylo
 }
 
 /// Whether one change comes, to the bare trunk with that body.
-::testing::AssertionResult LoadsWith(const RigidMass& body,
+::testing::AssertionResult LoadsWith(const SpatialInertia& body,
                                      const std::vector<TrunkChange>& changes) {
   if (changes.size() != 1)
     return ::testing::AssertionFailure() << changes.size() << " changes instead of one";
-  const core::ModelParameters& trunk = changes[0].trunk;
-  const core::ModelParameters wanted = AddBodies(BareTrunk(), std::vector<RigidMass>{body});
-  const double mass_kg = std::abs(trunk.trunk_mass_kg - wanted.trunk_mass_kg);
-  const double place_m = (trunk.p_BC_trunk - wanted.p_BC_trunk).norm();
-  const double inertia_kgm2 = (trunk.I_C_B_trunk - wanted.I_C_B_trunk).norm();
+  const SpatialInertia& trunk = changes[0].trunk;
+  const SpatialInertia wanted = AddBodies(BareTrunk(), std::vector<SpatialInertia>{body});
+  const double mass_kg = std::abs(trunk.mass_kg - wanted.mass_kg);
+  const double place_m = (trunk.p_OC - wanted.p_OC).norm();
+  const double inertia_kgm2 = (trunk.I_C - wanted.I_C).norm();
   if (std::max({mass_kg, place_m, inertia_kgm2}) < 1e-14) return ::testing::AssertionSuccess();
   return ::testing::AssertionFailure()
          << "off by " << mass_kg << " kg, " << place_m << " m, " << inertia_kgm2 << " kg m^2";
@@ -65,8 +62,8 @@ Vec3 HalfTurn(const Vec3& from_rpy_rad, const Vec3& to_rpy_rad) {
 }
 
 /// A share of a body, in its place.
-RigidMass Share(double share, const RigidMass& whole) {
-  return {share * whole.mass_kg, whole.p_BP, share * whole.I_P_B};
+SpatialInertia Share(double share, const SpatialInertia& whole) {
+  return {share * whole.mass_kg, whole.p_OC, share * whole.I_C};
 }
 
 LegArray<Vec3> Hold(const RobotState& s, const LegArray<Vec3>& q) {
@@ -76,9 +73,9 @@ LegArray<Vec3> Hold(const RobotState& s, const LegArray<Vec3>& q) {
 }
 
 /// Linear momentum, and angular momentum about W's origin, of the robot with a trunk.
-Vec6 Momentum(const core::ModelParameters& trunk, const RobotState& state) {
+Vec6 RobotMomentum(const SpatialInertia& trunk, const RobotState& state) {
   core::WholeBodyModel model(test::Go2(), Vec3::Zero());
-  model.SetParameters(trunk);
+  model.SetParameters({trunk});
   core::WholeBody wb;
   model.Calc(state, wb);
   Vec6 out = CalcMomentum(wb);
@@ -87,35 +84,35 @@ Vec6 Momentum(const core::ModelParameters& trunk, const RobotState& state) {
 }
 
 /// Of a body that moves with the trunk.
-Vec6 Momentum(const RigidMass& body, const RobotState& s) {
-  const Vec3 r_W = s.R_WB * body.p_BP;
+Vec6 Momentum(const SpatialInertia& body, const RobotState& s) {
+  const Vec3 r_W = s.R_WB * body.p_OC;
   const Vec3 p_W = body.mass_kg * (s.v_WB + s.w_WB.cross(r_W));
   Vec6 out;
-  out << p_W, (s.p_WB + r_W).cross(p_W) + s.R_WB * body.I_P_B * s.R_WB.transpose() * s.w_WB;
+  out << p_W, (s.p_WB + r_W).cross(p_W) + s.R_WB * body.I_C * s.R_WB.transpose() * s.w_WB;
   return out;
 }
 
 TEST(Payload, CompositionEqualsAHandCalculation) {
-  const core::ModelParameters trunk{3.0, {0.1, 0.0, 0.0}, Vec3(1.0, 2.0, 3.0).asDiagonal()};
-  const std::vector<RigidMass> point = {{1.0, {0.5, 0.0, 0.4}}};
-  const core::ModelParameters sum = AddBodies(trunk, point);
-  EXPECT_DOUBLE_EQ(sum.trunk_mass_kg, 4.0);
-  EXPECT_LT((sum.p_BC_trunk - Vec3(0.2, 0.0, 0.1)).norm(), 1e-15);
+  const SpatialInertia trunk{3.0, {0.1, 0.0, 0.0}, Vec3(1.0, 2.0, 3.0).asDiagonal()};
+  const std::vector<SpatialInertia> point = {{1.0, {0.5, 0.0, 0.4}}};
+  const SpatialInertia sum = AddBodies(trunk, point);
+  EXPECT_DOUBLE_EQ(sum.mass_kg, 4.0);
+  EXPECT_LT((sum.p_OC - Vec3(0.2, 0.0, 0.1)).norm(), 1e-15);
   Mat3 I;
   I << 1.12, 0.0, -0.12, 0.0, 2.24, 0.0, -0.12, 0.0, 3.12;
-  EXPECT_LT((sum.I_C_B_trunk - I).norm(), 1e-14);
+  EXPECT_LT((sum.I_C - I).norm(), 1e-14);
   EXPECT_EQ(AddBodies(trunk, {}), trunk);
-  EXPECT_EQ(AddBodies(trunk, std::vector<RigidMass>{{0.0, {0.5, 0.0, 0.4}}}), trunk);
+  EXPECT_EQ(AddBodies(trunk, std::vector<SpatialInertia>{{0.0, {0.5, 0.0, 0.4}}}), trunk);
 }
 
 TEST(Payload, InertiaIsTheBoxsOrAsGivenAndTurnsWithIt) {
   PayloadParams p{"box", 12.0, Vec3::Zero(), {0.0, 0.0, std::numbers::pi / 2}, {1.0, 2.0, 3.0}};
   const Mat3 box = Vec3(10.0, 13.0, 5.0).asDiagonal();
-  EXPECT_LT((ToRigidMass(p).I_P_B - box).norm(), 1e-13);
+  EXPECT_LT((ToInertia(p).I_C - box).norm(), 1e-13);
   p.inertia_kgm2 = {4.0, 5.0, 6.0};
   const Mat3 given = Vec3(5.0, 4.0, 6.0).asDiagonal();
-  EXPECT_LT((ToRigidMass(p).I_P_B - given).norm(), 1e-13);
-  EXPECT_EQ(ToRigidMass({"point", 2.0}).I_P_B, Mat3::Zero());
+  EXPECT_LT((ToInertia(p).I_C - given).norm(), 1e-13);
+  EXPECT_EQ(ToInertia({"point", 2.0}).I_C, Mat3::Zero());
 }
 
 TEST(Payload, MomentumIsConservedWhereTheBodyWasAtRest) {
@@ -136,7 +133,8 @@ TEST(Payload, MomentumIsConservedWhereTheBodyWasAtRest) {
     ASSERT_EQ(changes.size(), 1u);
     world.SetTrunkParameters(changes[0].trunk, changes[0].attach_velocity);
     const Truth& after = world.truth();
-    const Vec6 P = Momentum(before.trunk, before.state), Q = Momentum(after.trunk, after.state);
+    const Vec6 P = RobotMomentum(before.trunk, before.state),
+               Q = RobotMomentum(after.trunk, after.state);
     EXPECT_LT((Q - P).head<3>().norm(), 1e-9 * P.head<3>().norm()) << trial;
     EXPECT_LT((Q - P).tail<3>().norm(), 1e-9 * P.tail<3>().norm()) << trial;
     EXPECT_LT(after.energy.kinetic_J, before.energy.kinetic_J) << "a plastic impact";
@@ -148,21 +146,21 @@ TEST(Payload, MatchedBodyBringsAndTakesItsOwnMomentum) {
   const terrains::Heightfield ground = test::FlatGround();
   World world(test::Go2(), ground, {}, Vec3::Zero());
   core::Rng rng(32, 0, core::Stream::kSensor);
-  const RigidMass plate = ToRigidMass(Plate());
+  const SpatialInertia plate = ToInertia(Plate());
   for (int trial = 0; trial < 20; ++trial) {
     PayloadRack rack(BareTrunk(),
                      {AddAt(0.0, Plate()), EventAt(1.0, PayloadAction::kRemove, "plate")});
     RobotState s = test::RandomState(rng);
     s.p_WB.z() = 5.0;
     world.Reset(s);
-    const Vec6 bare = Momentum(BareTrunk(), s);
+    const Vec6 bare = RobotMomentum(BareTrunk(), s);
     world.SetTrunkParameters(rack.Update(At(0.1, 0.0)).at(0).trunk, AttachVelocity::kMatched);
     EXPECT_EQ(world.truth().state, s);
-    const Vec6 loaded = Momentum(world.truth().trunk, s), own = Momentum(plate, s);
+    const Vec6 loaded = RobotMomentum(world.truth().trunk, s), own = Momentum(plate, s);
     EXPECT_LT((loaded - bare - own).head<3>().norm(), 1e-9 * loaded.head<3>().norm()) << trial;
     EXPECT_LT((loaded - bare - own).tail<3>().norm(), 1e-9 * loaded.tail<3>().norm()) << trial;
     world.SetTrunkParameters(rack.Update(At(1.1, 0.0)).at(0).trunk, AttachVelocity::kMatched);
-    EXPECT_EQ(Momentum(world.truth().trunk, world.truth().state), bare);
+    EXPECT_EQ(RobotMomentum(world.truth().trunk, world.truth().state), bare);
   }
 }
 
@@ -174,7 +172,7 @@ TEST(Payload, ImpactIsFeltInTheNextStepsAcceleration) {
   s.p_WB.z() = 5.0;
   s.v_WB = {1.0, 0.0, 0.0};
   world.Reset(s);
-  world.SetTrunkParameters(AddBodies(BareTrunk(), std::vector<RigidMass>{ToRigidMass(Plate())}),
+  world.SetTrunkParameters(AddBodies(BareTrunk(), std::vector<SpatialInertia>{ToInertia(Plate())}),
                            AttachVelocity::kRest);
   world.Step(ZeroPerLeg());
   const Truth& t = world.truth();
@@ -195,19 +193,19 @@ TEST(PayloadRack, AddedThenRemovedRestoresTheTrunkBitForBit) {
                                  EventAt(7.0, PayloadAction::kRemove, "kit")});
   const terrains::Heightfield ground = test::FlatGround();
   World world(test::Go2(), ground, {}, kGravity);
-  const core::ModelParameters before = world.truth().trunk;
+  const SpatialInertia before = world.truth().trunk;
   int changes = 0;
   for (int i = 0; i < 8000; ++i) {
     for (const TrunkChange& change : rack.Update(At(0.001 * i, 0.0))) {
       world.SetTrunkParameters(change.trunk, change.attach_velocity);
       ++changes;
     }
-    const core::ModelParameters& now = world.truth().trunk;
+    const SpatialInertia& now = world.truth().trunk;
     if (i == 1500) {
-      EXPECT_EQ(now, AddBodies(BareTrunk(), std::vector<RigidMass>{ToRigidMass(Plate())}));
+      EXPECT_EQ(now, AddBodies(BareTrunk(), std::vector<SpatialInertia>{ToInertia(Plate())}));
     }
     if (i == 6500) {
-      EXPECT_EQ(now, AddBodies(BareTrunk(), std::vector<RigidMass>{ToRigidMass(kit)}));
+      EXPECT_EQ(now, AddBodies(BareTrunk(), std::vector<SpatialInertia>{ToInertia(kit)}));
     }
   }
   EXPECT_GT(changes, 1000);
@@ -221,7 +219,7 @@ TEST(PayloadRack, GradualEventsRunOnTheClock) {
   PayloadRack rack(BareTrunk(), {add});
   EXPECT_TRUE(rack.Update(At(1.0, 0.0)).empty());
   EXPECT_TRUE(rack.announcements().empty());
-  const RigidMass plate = ToRigidMass(Plate());
+  const SpatialInertia plate = ToInertia(Plate());
   EXPECT_TRUE(LoadsWith(Share(0.25, plate), rack.Update(At(2.0, 0.0))));
   ASSERT_EQ(rack.announcements().size(), 1u);
   EXPECT_EQ(rack.announcements()[0],
@@ -241,7 +239,7 @@ TEST(PayloadRack, EventsBeginAtADistance) {
   EXPECT_TRUE(rack.Update(At(50.0, 2.9)).empty());
   EXPECT_TRUE(rack.Update(At(60.0, 3.1)).empty()) << "it begins with nothing";
   EXPECT_EQ(rack.announcements().size(), 1u);
-  EXPECT_TRUE(LoadsWith(Share(0.5, ToRigidMass(Plate())), rack.Update(At(61.0, 3.2))));
+  EXPECT_TRUE(LoadsWith(Share(0.5, ToInertia(Plate())), rack.Update(At(61.0, 3.2))));
 }
 
 TEST(PayloadRack, MovedBodyGoesStraightAndTurns) {
@@ -250,17 +248,17 @@ TEST(PayloadRack, MovedBodyGoesStraightAndTurns) {
   move.rpy_rad = Vec3(0.0, 0.0, 1.2);
   move.duration_s = 2.0;
   PayloadRack rack(BareTrunk(), {AddAt(0.0, Plate()), move});
-  EXPECT_TRUE(LoadsWith(ToRigidMass(Plate()), rack.Update(At(0.5, 0.0))));
+  EXPECT_TRUE(LoadsWith(ToInertia(Plate()), rack.Update(At(0.5, 0.0))));
   PayloadParams half_way = Plate();
   half_way.p_BP_m = {0.02, -0.05, 0.09};
   half_way.rpy_rad = HalfTurn(Plate().rpy_rad, *move.rpy_rad);
-  EXPECT_TRUE(LoadsWith(ToRigidMass(half_way), rack.Update(At(2.0, 0.0))));
+  EXPECT_TRUE(LoadsWith(ToInertia(half_way), rack.Update(At(2.0, 0.0))));
   EXPECT_EQ(rack.announcements().at(0),
             "payload plate moved over 2 s: 5 kg to (0.020, -0.150, 0.090) m");
   PayloadParams there = Plate();
   there.p_BP_m = *move.p_BP_m;
   there.rpy_rad = *move.rpy_rad;
-  EXPECT_TRUE(LoadsWith(ToRigidMass(there), rack.Update(At(4.0, 0.0))));
+  EXPECT_TRUE(LoadsWith(ToInertia(there), rack.Update(At(4.0, 0.0))));
 }
 
 TEST(PayloadRack, ShedBodyKeepsTheRestInItsPlace) {
@@ -268,7 +266,7 @@ TEST(PayloadRack, ShedBodyKeepsTheRestInItsPlace) {
   shed.share = 0.4;
   PayloadRack rack(BareTrunk(), {AddAt(0.0, Plate()), shed});
   (void)rack.Update(At(0.5, 0.0));
-  EXPECT_TRUE(LoadsWith(Share(0.6, ToRigidMass(Plate())), rack.Update(At(1.5, 0.0))));
+  EXPECT_TRUE(LoadsWith(Share(0.6, ToInertia(Plate())), rack.Update(At(1.5, 0.0))));
   EXPECT_EQ(rack.announcements().at(0),
             "payload plate loses a part: 2 of 5 kg at (0.020, 0.050, 0.090) m");
 }
@@ -282,10 +280,11 @@ TEST(PayloadRack, MatchedAndRestedBodiesInOneStepAreTwoChanges) {
   const std::vector<TrunkChange> changes = rack.Update(At(1.5, 0.0));
   ASSERT_EQ(changes.size(), 2u);
   EXPECT_EQ(changes[0].attach_velocity, AttachVelocity::kMatched);
-  EXPECT_EQ(changes[0].trunk, AddBodies(BareTrunk(), std::vector<RigidMass>{ToRigidMass(other)}));
+  EXPECT_EQ(changes[0].trunk,
+            AddBodies(BareTrunk(), std::vector<SpatialInertia>{ToInertia(other)}));
   EXPECT_EQ(changes[1].attach_velocity, AttachVelocity::kRest);
-  EXPECT_EQ(changes[1].trunk, AddBodies(BareTrunk(), std::vector<RigidMass>{ToRigidMass(Plate()),
-                                                                            ToRigidMass(other)}));
+  EXPECT_EQ(changes[1].trunk, AddBodies(BareTrunk(), std::vector<SpatialInertia>{
+                                                         ToInertia(Plate()), ToInertia(other)}));
 }
 
 TEST(PayloadRack, EventWithoutItsBodyDoesNothingAndSaysSo) {
@@ -376,7 +375,7 @@ TEST(PayloadLibrary, FilesHaveTheMassTheirNameSays) {
         core::LoadConfig(test::SourcePath("robots/payloads/" + name + ".yaml")));
     EXPECT_EQ(payload.name, name);
     EXPECT_EQ(payload.mass_kg, mass_kg);
-    EXPECT_GT(ToRigidMass(payload).I_P_B.trace(), 0.0) << name;
+    EXPECT_GT(ToInertia(payload).I_C.trace(), 0.0) << name;
   }
 }
 
@@ -408,7 +407,7 @@ TEST(World, StandsUnderAPlateThatIsPutOnItsBack) {
 TEST(World, ResetKeepsThePayload) {
   const terrains::Heightfield ground = test::FlatGround();
   World world(test::Go2(), ground, {}, kGravity);
-  const std::vector<RigidMass> plate = {ToRigidMass(Plate())};
+  const std::vector<SpatialInertia> plate = {ToInertia(Plate())};
   world.SetTrunkParameters(AddBodies(BareTrunk(), plate), AttachVelocity::kMatched);
   world.Reset(test::StandingState());
   EXPECT_DOUBLE_EQ(world.truth().mass_kg, test::Go2().total_mass_kg() + 5.0);
@@ -452,11 +451,11 @@ TEST(SlidingPayload, MomentumIsKeptInFlightAndInAnImpact) {
   const auto momentum = [&] {
     const Truth& t = world.truth();
     const Vec3 u_W = t.state.R_WB * Vec3::UnitY();
-    RigidMass block{2.0, Vec3(0.0, t.slide_m, 0.1)};
+    SpatialInertia block{2.0, Vec3(0.0, t.slide_m, 0.1)};
     Vec6 own;
     own << 2.0 * t.slide_mps * u_W,
-        (t.state.p_WB + t.state.R_WB * block.p_BP).cross(2.0 * t.slide_mps * u_W);
-    return Vec6(Momentum(t.trunk, t.state) + Momentum(block, t.state) + own);
+        (t.state.p_WB + t.state.R_WB * block.p_OC).cross(2.0 * t.slide_mps * u_W);
+    return Vec6(RobotMomentum(t.trunk, t.state) + Momentum(block, t.state) + own);
   };
   const Vec6 start = momentum();
   for (int i = 0; i < 500; ++i) world.Step(Hold(world.truth().state, s.q));
@@ -467,7 +466,7 @@ TEST(SlidingPayload, MomentumIsKeptInFlightAndInAnImpact) {
   EXPECT_LT(std::abs(world.truth().energy.Error_J()), 0.002 * world.truth().energy.initial_J);
   EXPECT_GT(std::abs(world.truth().slide_mps), 1e-4);
   const double rate_mps = world.truth().slide_mps;
-  world.SetTrunkParameters(AddBodies(BareTrunk(), std::vector<RigidMass>{ToRigidMass(Plate())}),
+  world.SetTrunkParameters(AddBodies(BareTrunk(), std::vector<SpatialInertia>{ToInertia(Plate())}),
                            AttachVelocity::kRest);
   const Vec6 hit = momentum();
   EXPECT_LT((hit - flown).head<3>().norm(), 1e-9 * flown.head<3>().norm());

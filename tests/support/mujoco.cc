@@ -18,11 +18,11 @@ std::string Numbers(const Mat3& R) {
 }
 
 std::string Inertial(const core::Body& b) {
-  const Mat3& I = b.I_C_L;
+  const Mat3& I = b.I_C;
   return fmt::format(
       "<inertial pos='{}' mass='{:.17g}' fullinertia='{:.17g} {:.17g} {:.17g} {:.17g} {:.17g} "
       "{:.17g}'/>",
-      Numbers(b.p_LC), b.mass_kg, I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2));
+      Numbers(b.p_OC), b.mass_kg, I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2));
 }
 
 /// Collision geometry of one body, as the simulator has it: cylinders become capsules.

@@ -294,10 +294,10 @@ TEST(ModelAdapter, MassStaysPositiveAndCentreInside) {
       for (int i = 0; i < Ticks(10.0); ++i) {
         const Adaptation& out = robot.Step();
         ASSERT_GT(out.mass_kg, 0.0);
-        ASSERT_GT(out.parameters.trunk_mass_kg, 0.0);
-        ASSERT_LT(std::abs(out.parameters.p_BC_trunk.x()), 0.2);
-        ASSERT_LT(std::abs(out.parameters.p_BC_trunk.y()), 0.15);
-        ASSERT_GT(out.parameters.I_C_B_trunk.determinant(), 0.0);
+        ASSERT_GT(out.parameters.trunk.mass_kg, 0.0);
+        ASSERT_LT(std::abs(out.parameters.trunk.p_OC.x()), 0.2);
+        ASSERT_LT(std::abs(out.parameters.trunk.p_OC.y()), 0.15);
+        ASSERT_GT(out.parameters.trunk.I_C.determinant(), 0.0);
       }
     }
   }
@@ -383,8 +383,8 @@ TEST(HandOver, IsSmoothAndEndsAtTheEstimate) {
     const Adaptation& out = robot.Step();
     EXPECT_EQ(out.changed, !(out.parameters == last));
     changes += out.changed ? 1 : 0;
-    ASSERT_LE(std::abs(out.parameters.trunk_mass_kg - last.trunk_mass_kg), limit_kg);
-    ASSERT_LE((out.parameters.p_BC_trunk - last.p_BC_trunk).norm(), 2e-3);
+    ASSERT_LE(std::abs(out.parameters.trunk.mass_kg - last.trunk.mass_kg), limit_kg);
+    ASSERT_LE((out.parameters.trunk.p_OC - last.trunk.p_OC).norm(), 2e-3);
     last = out.parameters;
   }
   EXPECT_GT(changes, 100);
@@ -416,13 +416,13 @@ TEST(HandOver, InertiaIsThatOfThePayloadAsAPoint) {
   const double m = 3.0, m0 = robot.trunk.mass_kg;
   const Vec3 p(kPlace.x(), kPlace.y(), params.payload_height_m);
   const auto out = hand_over.Update(m * Vec3(1.0, p.x(), p.y()), 1e-6 * Mat3::Identity(), wb, 0.01);
-  const Vec3 c = (m0 * robot.trunk.p_LC + m * p) / (m0 + m);
+  const Vec3 c = (m0 * robot.trunk.p_OC + m * p) / (m0 + m);
   const auto point = [](double mass, const Vec3& d) {
     return Mat3(mass * (d.squaredNorm() * Mat3::Identity() - d * d.transpose()));
   };
-  const Mat3 I = robot.trunk.I_C_L + point(m0, robot.trunk.p_LC - c) + point(m, p - c);
-  EXPECT_TRUE(out.parameters.p_BC_trunk.isApprox(c, 1e-12));
-  EXPECT_TRUE(out.parameters.I_C_B_trunk.isApprox(I, 1e-12));
+  const Mat3 I = robot.trunk.I_C + point(m0, robot.trunk.p_OC - c) + point(m, p - c);
+  EXPECT_TRUE(out.parameters.trunk.p_OC.isApprox(c, 1e-12));
+  EXPECT_TRUE(out.parameters.trunk.I_C.isApprox(I, 1e-12));
 }
 
 TEST(ModelAdapter, UpdateDoesNotAllocate) {

@@ -215,8 +215,8 @@ TEST(OtherRobots, LinkFramesMayPointAnywhere) {
       l.joints[j].p_PJ = R_before.transpose() * l.joints[j].p_PJ;
       l.joints[j].R_PJ = R_before.transpose() * R_LNew;
       l.joints[j].axis_J = R_LNew.transpose() * l.joints[j].axis_J;
-      l.links[j].p_LC = R_LNew.transpose() * l.links[j].p_LC;
-      l.links[j].I_C_L = R_LNew.transpose() * l.links[j].I_C_L * R_LNew;
+      l.links[j].p_OC = R_LNew.transpose() * l.links[j].p_OC;
+      l.links[j].I_C = R_LNew.transpose() * l.links[j].I_C * R_LNew;
       R_before = R_LNew;
     }
     l.p_LF = R_before.transpose() * l.p_LF;
@@ -315,8 +315,8 @@ TEST(Robot, EquipmentIsPartOfTheTrunk) {
   config.equipment = {kit};
   const RobotDescription robot = MakeRobot(config, bare.urdf_text);
   EXPECT_NEAR(robot.total_mass_kg(), bare.total_mass_kg() + 1.19, 1e-12);
-  const Vec3 moment = bare.trunk.mass_kg * bare.trunk.p_LC + 1.19 * kit.p_BP_m;
-  EXPECT_LT((robot.trunk.p_LC - moment / robot.trunk.mass_kg).norm(), 1e-12);
+  const Vec3 moment = bare.trunk.mass_kg * bare.trunk.p_OC + 1.19 * kit.p_BP_m;
+  EXPECT_LT((robot.trunk.p_OC - moment / robot.trunk.mass_kg).norm(), 1e-12);
   EXPECT_EQ(robot.visuals.size(), bare.visuals.size() + 1);
   EXPECT_EQ(robot.config.nominal_height_m, bare.config.nominal_height_m);
 }

@@ -97,7 +97,7 @@ TEST(Urdf, JointsThatPlaceTheRobotInTheWorldAreLeftOut) {
   for (const char* type : {"floating", "planar", "prismatic", "continuous", "revolute"}) {
     const RobotDescription robot = Make({{kTrunk, Above("world", "base_link", type) + kTrunk}});
     EXPECT_EQ(robot.trunk.name, "base_link") << type;
-    EXPECT_EQ(robot.trunk.p_LC, test::Go2().trunk.p_LC) << type;
+    EXPECT_EQ(robot.trunk.p_OC, test::Go2().trunk.p_OC) << type;
     EXPECT_EQ(ModelWarnings(robot), "") << type;
   }
   const RobotDescription chain =
