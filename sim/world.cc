@@ -1,163 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/world.h"
 
-#include <algorithm>
-#include <array>
 #include <vector>
 
-#include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>
 #include <Eigen/Cholesky>
-#include <btBulletCollisionCommon.h>
 
-#include "core/demand.h"
 #include "core/math/so3.h"
 #include "core/robot/kinematics.h"
-#include "sim/ground_contact.h"
-
-static_assert(sizeof(btScalar) == 8, "scoria needs Bullet in double precision (bullet-float64)");
+#include "sim/contact/contact_finder.h"
 
 namespace scoria::sim {
-namespace {
 
-using core::BodyIndex;
-using core::kNumBodies;
 using core::RobotDescription;
-using core::Shape;
-
-constexpr int kRobotGroup = 1, kGroundGroup = 2;
-
-btVector3 ToBullet(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-btTransform ToBullet(const Mat3& R, const Vec3& p) {
-  return btTransform(
-      btMatrix3x3(R(0, 0), R(0, 1), R(0, 2), R(1, 0), R(1, 1), R(1, 2), R(2, 0), R(2, 1), R(2, 2)),
-      ToBullet(p));
-}
-Vec3 ToVec3(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
-
-std::unique_ptr<btCollisionShape> MakeShape(const Shape& shape) {
-  const Vec3& s = shape.size_m;
-  switch (shape.kind) {
-    case Shape::Kind::kBox:
-      return std::make_unique<btBoxShape>(ToBullet(0.5 * s));
-    case Shape::Kind::kCylinder:  // as a capsule of the same length: no edges to catch on triangles
-      return std::make_unique<btCapsuleShapeZ>(s.x(), std::max(0.0, s.y() - 2.0 * s.x()));
-    case Shape::Kind::kSphere:
-      return std::make_unique<btSphereShape>(s.x());
-    case Shape::Kind::kMesh:
-      break;
-  }
-  SCORIA_DEMAND(false, "a mesh does not collide; MakeRobot puts a box in its place");
-}
-
-/// A heightfield that reaches as far as its border's height continues, and as deep as feet sink.
-class EndlessHeightfield final : public btHeightfieldTerrainShape {
- public:
-  using btHeightfieldTerrainShape::btHeightfieldTerrainShape;
-  void getAabb(const btTransform& t, btVector3& low, btVector3& high) const override {
-    constexpr double kFar_m = 1e4, kDeep_m = 1.0, kOvershoot_m = 0.1;  // of the bicubic surface
-    btHeightfieldTerrainShape::getAabb(t, low, high);
-    low.setValue(-kFar_m, -kFar_m, low.z() - kDeep_m);
-    high.setValue(kFar_m, kFar_m, high.z() + kOvershoot_m);
-  }
-};
-
-/// The robot's bodies and the ground as Bullet sees them.
-class Collisions {
- public:
-  Collisions(const RobotDescription& robot, const terrains::Heightfield& ground)
-      : ground_contact_(dispatcher_, ground) {
-    world_.getDispatchInfo().m_deterministicOverlappingPairs = true;
-    world_.setForceUpdateAllAabbs(false);
-    AddGround(ground);
-    for (int body = 0; body < kNumBodies; ++body) AddBody(robot, body);
-  }
-  ~Collisions() {
-    for (const auto& object : objects_) world_.removeCollisionObject(object.get());
-  }
-
-  /// Appends where bodies at `poses` are at or near the ground.
-  void Find(const std::array<core::LinkPose, kNumBodies>& poses, const Vec3& p_WB,
-            std::vector<ContactPoint>& contacts) {
-    for (const auto& object : objects_) {
-      if (object->getUserIndex() == kGroundIndex) continue;
-      const auto& [R_WL, p_WL] = poses[static_cast<std::size_t>(object->getUserIndex())];
-      object->setWorldTransform(ToBullet(R_WL, p_WL));
-    }
-    world_.performDiscreteCollisionDetection();
-    for (int m = 0; m < dispatcher_.getNumManifolds(); ++m) {
-      const btPersistentManifold& manifold = *dispatcher_.getManifoldByIndexInternal(m);
-      const bool ground_first = manifold.getBody0()->getUserIndex() == kGroundIndex;
-      const auto* body = ground_first ? manifold.getBody1() : manifold.getBody0();
-      for (int i = 0; i < manifold.getNumContacts(); ++i) {
-        const btManifoldPoint& point = manifold.getContactPoint(i);
-        ContactPoint contact;
-        contact.body = body->getUserIndex();
-        contact.n_W = (ground_first ? -1.0 : 1.0) * ToVec3(point.m_normalWorldOnB);
-        contact.p_BP_W =
-            ToVec3(ground_first ? point.getPositionWorldOnB() : point.getPositionWorldOnA()) - p_WB;
-        contact.gap_m = point.getDistance();
-        contact.is_foot = point.m_userPersistentData != nullptr;
-        contacts.push_back(contact);
-      }
-    }
-  }
-
-  /// Forgets cached contacts.
-  void Forget() {
-    for (int m = 0; m < dispatcher_.getNumManifolds(); ++m) {
-      dispatcher_.getManifoldByIndexInternal(m)->clearManifold();
-    }
-  }
-
- private:
-  static constexpr int kGroundIndex = -1;
-
-  void AddGround(const terrains::Heightfield& ground) {
-    constexpr double kMargin_m = 0.01;
-    constexpr int kUpAxis = 2;
-    const double low = ground.min_m() - kMargin_m, high = ground.max_m() + kMargin_m;
-    auto shape = std::make_unique<EndlessHeightfield>(
-        ground.nodes(), ground.nodes(), ground.heights_m().data(), low, high, kUpAxis, false);
-    shape->setLocalScaling(btVector3(ground.resolution_m(), ground.resolution_m(), 1.0));
-    auto object = std::make_unique<btCollisionObject>();
-    object->setCollisionShape(shape.get());
-    object->setCollisionFlags(btCollisionObject::CF_STATIC_OBJECT);
-    object->setUserIndex(kGroundIndex);
-    // Bullet centres the shape between the two heights.
-    object->setWorldTransform(ToBullet(Mat3::Identity(), {0.0, 0.0, 0.5 * (low + high)}));
-    world_.addCollisionObject(object.get(), kGroundGroup, kRobotGroup);
-    shapes_.push_back(std::move(shape));
-    objects_.push_back(std::move(object));
-  }
-
-  void AddBody(const RobotDescription& robot, int body) {
-    auto compound = std::make_unique<btCompoundShape>(false);
-    for (const Shape& shape : robot.collisions) {
-      if (shape.body != body) continue;
-      shapes_.push_back(MakeShape(shape));
-      if (shape.is_foot) shapes_.back()->setUserPointer(this);
-      compound->addChildShape(ToBullet(shape.R_LG, shape.p_LG), shapes_.back().get());
-    }
-    if (compound->getNumChildShapes() == 0) return;
-    auto object = std::make_unique<btCollisionObject>();
-    object->setCollisionShape(compound.get());
-    object->setActivationState(DISABLE_DEACTIVATION);
-    object->setUserIndex(body);
-    world_.addCollisionObject(object.get(), kRobotGroup, kGroundGroup);
-    shapes_.push_back(std::move(compound));
-    objects_.push_back(std::move(object));
-  }
-
-  btDefaultCollisionConfiguration configuration_;
-  btCollisionDispatcher dispatcher_{&configuration_};
-  GroundContact ground_contact_;
-  btDbvtBroadphase broadphase_;
-  btCollisionWorld world_{&dispatcher_, &broadphase_, &configuration_};
-  std::vector<std::unique_ptr<btCollisionShape>> shapes_;
-  std::vector<std::unique_ptr<btCollisionObject>> objects_;
-};
-
-}  // namespace
 
 struct World::Impl {
   Impl(const RobotDescription& robot_in, const terrains::Heightfield& ground_in,
@@ -178,7 +32,7 @@ struct World::Impl {
   core::WholeBody whole_body;  // at truth.state, without a sliding payload
   std::optional<SlidingPayload> sliding;
   StepSolver solver;
-  Collisions collisions;
+  ContactFinder contact_finder;
   // What a foot of the bare robot typically carries: the ground's damping ratio refers to it, and
   // the ground does not change with the payload.
   double load_kg;
@@ -200,16 +54,15 @@ World::Impl::Impl(const RobotDescription& robot_in, const terrains::Heightfield&
       gravity_W(gravity_in_W),
       model(robot_in, gravity_in_W),
       solver(robot_in, {params_in.max_solver_iterations, params_in.solver_residual}),
-      collisions(robot_in, ground_in),
+      contact_finder(robot_in, ground_in),
       load_kg(robot_in.total_mass_kg() / kNumLegs) {
   if (sliding_in) sliding.emplace(*sliding_in, gravity_in_W);
 }
 
 void World::Impl::FindContacts() {
   const RobotState& state = truth.state;
-  contacts.clear();
-  collisions.Find(core::CalcLinkPoses(robot, state.p_WB, state.R_WB, state.q), state.p_WB,
-                  contacts);
+  contact_finder.Find(core::CalcLinkPoses(robot, state.p_WB, state.R_WB, state.q), state.p_WB,
+                      contacts);
   LegArray<bool> near(false);
   for (ContactPoint& c : contacts) {
     const Vec3 p_WP = state.p_WB + c.p_BP_W;
@@ -314,9 +167,11 @@ World::World(const RobotDescription& robot, const terrains::Heightfield& ground,
 
 World::~World() = default;
 
+World::World(const World& other) : impl_(std::make_unique<Impl>(*other.impl_)) {}
+
 void World::Reset(const RobotState& state) {
   Impl& w = *impl_;
-  w.collisions.Forget();
+  w.contact_finder.Forget();
   w.foot_impulse_W = ZeroPerLeg();
   w.solver.Reset();
   w.impact_v_WB.setZero();

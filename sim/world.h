@@ -64,7 +64,7 @@ struct Truth {
 
 /// One quadruped on one ground. Bullet finds the contacts: feet touch the ground's bicubic surface
 /// in one contact each; trunk, thighs and shanks touch its triangulated heightfield. StepSolver
-/// moves the robot. Copying is not possible; build a new world per episode.
+/// moves the robot.
 class World {
  public:
   /// `robot` and `ground` are borrowed and must outlive the world.
@@ -72,7 +72,9 @@ class World {
         const PhysicsParams& params, const Vec3& gravity_W,
         const std::optional<SlidingPayloadParams>& sliding = std::nullopt);
   ~World();
-  World(const World&) = delete;
+  /// The copy goes on where the original is, with the same bits under the same torques; neither
+  /// touches the other. Both borrow the same robot and ground.
+  World(const World& other);
   World& operator=(const World&) = delete;
 
   /// Places the robot at rest or in motion; contact memory is forgotten. Payloads stay on it.

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/ground_contact.h"
+#include "sim/contact/ground_contact.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <BulletCollision/CollisionDispatch/btActivatingCollisionAlgorithm.h>
 #include <BulletCollision/CollisionDispatch/btCollisionCreateFunc.h>
 #include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
+#include <BulletCollision/CollisionDispatch/btCompoundCompoundCollisionAlgorithm.h>
 #include <BulletCollision/CollisionDispatch/btConvexConcaveCollisionAlgorithm.h>
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
@@ -61,12 +63,15 @@ class CeilingMap {
   std::vector<double> highest_m_;
 };
 
-/// What both algorithms below need to know.
+}  // namespace
+
 struct GroundShape {
   const terrains::Heightfield& surface;
   CeilingMap ceiling;
   explicit GroundShape(const terrains::Heightfield& ground) : surface(ground), ceiling(ground) {}
 };
+
+namespace {
 
 /// The point of the surface nearest to `c`, by Gauss-Newton on its horizontal position.
 struct Nearest {
@@ -152,8 +157,8 @@ class SphereGroundAlgorithm : public btActivatingCollisionAlgorithm {
     const auto* sphere = ground_first_ ? second : first;
     const btVector3 centre = sphere->getWorldTransform().getOrigin();
     const Vec3 c(centre.x(), centre.y(), centre.z());
-    const auto* shape = static_cast<const btSphereShape*>(sphere->getCollisionShape());
-    const double radius = shape->getRadius();
+    const double radius =
+        static_cast<const btSphereShape*>(sphere->getCollisionShape())->getRadius();
     result->setPersistentManifold(manifold_);
     manifold_->clearManifold();
     const double threshold = manifold_->getContactBreakingThreshold();
@@ -173,8 +178,6 @@ class SphereGroundAlgorithm : public btActivatingCollisionAlgorithm {
     } else {
       result->addContactPoint(-n, p + n * distance, distance);
     }
-    if (manifold_->getNumContacts() == 0) return;
-    manifold_->getContactPoint(0).m_userPersistentData = shape->getUserPointer();
   }
 
   btScalar calculateTimeOfImpact(btCollisionObject*, btCollisionObject*, const btDispatcherInfo&,
@@ -221,6 +224,10 @@ class BodyGroundAlgorithm : public btConvexConcaveCollisionAlgorithm {
   const CeilingMap& ceiling_;
 };
 
+// Bullet's pool of algorithms has room for its own largest one in each place.
+static_assert(std::max(sizeof(SphereGroundAlgorithm), sizeof(BodyGroundAlgorithm)) <=
+              sizeof(btCompoundCompoundCollisionAlgorithm));
+
 /// Makes algorithms of one kind.
 template <class Algorithm>
 class Factory : public btCollisionAlgorithmCreateFunc {
@@ -242,28 +249,37 @@ class Factory : public btCollisionAlgorithmCreateFunc {
 }  // namespace
 
 struct GroundContact::Impl {
-  explicit Impl(const terrains::Heightfield& surface)
-      : ground(surface),
-        foot_first(ground, false),
-        ground_foot(ground, true),
-        body_first(ground, false),
-        ground_body(ground, true) {}
-  GroundShape ground;
+  explicit Impl(std::shared_ptr<const GroundShape> shape_in)
+      : shape(std::move(shape_in)),
+        foot_first(*shape, false),
+        ground_foot(*shape, true),
+        body_first(*shape, false),
+        ground_body(*shape, true) {}
+  std::shared_ptr<const GroundShape> shape;
   Factory<SphereGroundAlgorithm> foot_first, ground_foot;
   Factory<BodyGroundAlgorithm> body_first, ground_body;
 };
 
-GroundContact::GroundContact(btCollisionDispatcher& dispatcher, const terrains::Heightfield& ground)
-    : impl_(std::make_unique<Impl>(ground)) {
+std::shared_ptr<const GroundShape> MakeGroundShape(const terrains::Heightfield& ground) {
+  return std::make_shared<const GroundShape>(ground);
+}
+
+GroundContact::GroundContact(btCollisionDispatcher& dispatcher,
+                             std::shared_ptr<const GroundShape> shape)
+    : impl_(std::make_unique<Impl>(std::move(shape))) {
   constexpr int kGround = TERRAIN_SHAPE_PROXYTYPE;
   dispatcher.registerCollisionCreateFunc(SPHERE_SHAPE_PROXYTYPE, kGround, &impl_->foot_first);
   dispatcher.registerCollisionCreateFunc(kGround, SPHERE_SHAPE_PROXYTYPE, &impl_->ground_foot);
-  for (const int shape : {BOX_SHAPE_PROXYTYPE, CAPSULE_SHAPE_PROXYTYPE}) {
-    dispatcher.registerCollisionCreateFunc(shape, kGround, &impl_->body_first);
-    dispatcher.registerCollisionCreateFunc(kGround, shape, &impl_->ground_body);
+  for (const int body : {BOX_SHAPE_PROXYTYPE, CAPSULE_SHAPE_PROXYTYPE}) {
+    dispatcher.registerCollisionCreateFunc(body, kGround, &impl_->body_first);
+    dispatcher.registerCollisionCreateFunc(kGround, body, &impl_->ground_body);
   }
 }
 
 GroundContact::~GroundContact() = default;
+
+const std::shared_ptr<const GroundShape>& GroundContact::shape() const noexcept {
+  return impl_->shape;
+}
 
 }  // namespace scoria::sim
