@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <memory>
 #include <optional>
 
 #include "controller/adaptation/model_adapter.h"
@@ -21,6 +20,7 @@
 #include "controller/swing/swing_trajectory.h"
 #include "controller/wbc/whole_body_controller.h"
 #include "core/clock.h"
+#include "core/clone_ptr.h"
 #include "core/robot/counters.h"
 #include "core/robot/whole_body.h"
 #include "core/stage_times.h"
@@ -123,8 +123,12 @@ struct Start {
 };
 
 /// The hierarchy: estimation every physics step, gait, reference, footholds and MPC at mpc_Hz,
-/// legs, swing and whole-body control at wbc_Hz. Allocates only in the constructor; Step neither
-/// throws, prints nor locks.
+/// legs, swing and whole-body control at wbc_Hz. Allocates only when it is built, copied or
+/// reconfigured; Step neither throws, prints nor locks.
+///
+/// A copy goes on where the original is, with the same bits from the same inputs, and neither
+/// touches the other; both borrow the same robot. It waits for an MPC solve that is under way on a
+/// thread.
 class Controller {
  public:
   /// @param robot borrowed. @param step_s physics step; rates must be whole multiples of it.
@@ -170,16 +174,16 @@ class Controller {
   double foot_radius_m_;
   SampleGuard samples_;
   std::optional<ContactEstimator> contact_;
-  std::unique_ptr<StateEstimator> estimator_;
-  std::unique_ptr<ModelAdapter> adapter_;
+  core::ClonePtr<StateEstimator> estimator_;
+  core::ClonePtr<ModelAdapter> adapter_;
   StandUp stand_up_;
-  std::unique_ptr<GaitSequencer> gait_;
+  core::ClonePtr<GaitSequencer> gait_;
   ReferencePlanner reference_planner_;
   FootholdPlanner foothold_planner_;
   LegStateMachine leg_states_;
   SwingTrajectory swing_;
-  std::unique_ptr<MpcRunner> mpc_;
-  std::unique_ptr<WholeBodyController> wbc_, fallback_;
+  core::ClonePtr<MpcRunner> mpc_;
+  core::ClonePtr<WholeBodyController> wbc_, fallback_;
   OutputGuard guard_;
   StageQuality quality_;
   Supervisor supervisor_;

@@ -32,6 +32,9 @@ class AdaptationKf final : public ModelAdapter {
   [[nodiscard]] const Adaptation& Update(const AdapterInput& in) noexcept override;
 
   void Continue(const core::ModelParameters& in_use) noexcept override;
+  [[nodiscard]] std::unique_ptr<ModelAdapter> Clone() const override {
+    return std::make_unique<AdaptationKf>(*this);
+  }
 
  private:
   [[nodiscard]] Vec3 CalcFootForce_W(Leg leg, const AdapterInput& in) const noexcept;

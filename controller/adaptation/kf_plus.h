@@ -53,6 +53,9 @@ class AdaptationKfPlus final : public ModelAdapter {
 
   [[nodiscard]] const Adaptation& Update(const AdapterInput& in) noexcept override;
   void Continue(const core::ModelParameters& in_use) noexcept override;
+  [[nodiscard]] std::unique_ptr<ModelAdapter> Clone() const override {
+    return std::make_unique<AdaptationKfPlus>(*this);
+  }
 
  private:
   void Correct(const WrenchSample& sample, double dt_s) noexcept;

@@ -19,6 +19,9 @@ class NoAdaptation final : public ModelAdapter {
 
   const Adaptation& Update(const AdapterInput&) noexcept override { return out_; }
   void Continue(const core::ModelParameters& in_use) noexcept override { out_.parameters = in_use; }
+  std::unique_ptr<ModelAdapter> Clone() const override {
+    return std::make_unique<NoAdaptation>(*this);
+  }
 
  private:
   Adaptation out_;

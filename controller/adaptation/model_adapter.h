@@ -41,6 +41,8 @@ class ModelAdapter {
   [[nodiscard]] virtual const Adaptation& Update(const AdapterInput& in) noexcept = 0;
   /// Goes on from what the controller acts on now, as another adapter left it.
   virtual void Continue(const core::ModelParameters& in_use) noexcept = 0;
+  /// A copy that goes on with the same bits; what is borrowed stays borrowed.
+  [[nodiscard]] virtual std::unique_ptr<ModelAdapter> Clone() const = 0;
 };
 
 /// @param robot     borrowed; its model is the known, unloaded robot.

@@ -33,6 +33,9 @@ class RecursiveLeastSquares final : public ModelAdapter {
   [[nodiscard]] const Adaptation& Update(const AdapterInput& in) noexcept override;
 
   void Continue(const core::ModelParameters& in_use) noexcept override;
+  [[nodiscard]] std::unique_ptr<ModelAdapter> Clone() const override {
+    return std::make_unique<RecursiveLeastSquares>(*this);
+  }
 
  private:
   void Correct(const WrenchSample& sample, double dt_s) noexcept;

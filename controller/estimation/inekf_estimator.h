@@ -20,6 +20,10 @@ class InekfEstimator final : public StateEstimator {
 
   void Continue(const StateEstimate& from, double sigma_scale) noexcept override;
 
+  [[nodiscard]] std::unique_ptr<StateEstimator> Clone() const override {
+    return std::make_unique<InekfEstimator>(*this);
+  }
+
  private:
   void Start(const SensorFrame& z) noexcept;
   void Predict(const EstimatorInput& in, Counters& counters) noexcept;

@@ -21,6 +21,10 @@ class LinearKf final : public StateEstimator {
 
   void Continue(const StateEstimate& from, double sigma_scale) noexcept override;
 
+  [[nodiscard]] std::unique_ptr<StateEstimator> Clone() const override {
+    return std::make_unique<LinearKf>(*this);
+  }
+
  private:
   using Row = Eigen::Matrix<double, 1, 6>;
   using States = Eigen::Matrix<double, 6, 3>;  // one column per axis of W

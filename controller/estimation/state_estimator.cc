@@ -18,6 +18,9 @@ class TruthEstimator final : public StateEstimator {
     last_.state = from.state;
     last_.gyro_bias_S = from.gyro_bias_S;  // for the estimator that follows
   }
+  std::unique_ptr<StateEstimator> Clone() const override {
+    return std::make_unique<TruthEstimator>(*this);
+  }
 
  private:
   StateEstimate last_;

@@ -60,6 +60,8 @@ class StateEstimator {
   /// @param sigma_scale  of the standard deviations at the start. The covariance that `from` states
   /// comes on top; where it states none, that of a baseline without one is assumed.
   virtual void Continue(const StateEstimate& from, double sigma_scale) noexcept = 0;
+  /// A copy that goes on with the same bits; what is borrowed stays borrowed.
+  [[nodiscard]] virtual std::unique_ptr<StateEstimator> Clone() const = 0;
 };
 
 /// The simulator's own state, for controller studies without estimation error.

@@ -147,6 +147,10 @@ class SimpleGait final : public PhasedGait {
   explicit SimpleGait(const SgsParams& params) noexcept
       : PhasedGait(params.stand), timing_(params.Timing()) {}
 
+  std::unique_ptr<GaitSequencer> Clone() const override {
+    return std::make_unique<SimpleGait>(*this);
+  }
+
  private:
   GaitTiming Timing(const GaitInput&) noexcept override { return timing_; }
   bool ends_swings_early() const noexcept override { return false; }
@@ -161,6 +165,10 @@ class AdaptiveGait final : public PhasedGait {
         law_(params.law),
         speed_(params.speed),
         offsets_(params.slow_walk, params.offset) {}
+
+  std::unique_ptr<GaitSequencer> Clone() const override {
+    return std::make_unique<AdaptiveGait>(*this);
+  }
 
  private:
   GaitTiming Timing(const GaitInput& in) noexcept override {
@@ -182,6 +190,10 @@ class MatchedGait final : public PhasedGait {
         params_(params),
         nominal_height_m_(nominal_height_m),
         offsets_(params.slow_walk, params.offset) {}
+
+  std::unique_ptr<GaitSequencer> Clone() const override {
+    return std::make_unique<MatchedGait>(*this);
+  }
 
  private:
   GaitTiming Timing(const GaitInput& in) noexcept override {
@@ -212,6 +224,8 @@ class BioGait final : public PhasedGait {
  public:
   explicit BioGait(const BioParams& params) noexcept
       : PhasedGait(params.stand), params_(params), speed_(params.speed) {}
+
+  std::unique_ptr<GaitSequencer> Clone() const override { return std::make_unique<BioGait>(*this); }
 
  private:
   GaitTiming Timing(const GaitInput& in) noexcept override {

@@ -36,6 +36,8 @@ class GaitSequencer {
   /// The phases now, and taking over those of another sequencer.
   [[nodiscard]] virtual const PhaseEngine& phases() const noexcept = 0;
   virtual void Continue(const PhaseEngine& phases) noexcept = 0;
+  /// A copy that goes on with the same bits.
+  [[nodiscard]] virtual std::unique_ptr<GaitSequencer> Clone() const = 0;
 };
 
 /// Stride law of the adaptive gait: l = 2.3 Fr^0.3 h with Fr = v²/(g h), T = l/v, constant swing

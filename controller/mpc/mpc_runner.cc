@@ -15,6 +15,17 @@ MpcRunner::MpcRunner(const MpcParams& params, const core::RobotDescription& robo
   if (threaded_) thread_ = std::thread([this] { Work(); });
 }
 
+MpcRunner::MpcRunner(const MpcRunner& other)
+    : latency_(other.latency_),
+      threaded_(other.threaded_),
+      mpc_((other.WaitFor(other.submitted_ - 1), other.mpc_)),
+      jobs_(other.jobs_),
+      submitted_(other.submitted_),
+      available_(other.submitted_),
+      solved_(other.submitted_) {
+  if (threaded_) thread_ = std::thread([this] { Work(); });
+}
+
 MpcRunner::~MpcRunner() {
   if (!threaded_) return;
   available_.store(-1);
@@ -31,7 +42,7 @@ void MpcRunner::Solve(std::int64_t tick) noexcept {
 }
 
 void MpcRunner::Work() noexcept {
-  for (std::int64_t done = 0;; ++done) {
+  for (std::int64_t done = solved_.load();; ++done) {
     std::int64_t available = available_.load();
     while (available == done) {
       available_.wait(done);
@@ -42,6 +53,12 @@ void MpcRunner::Work() noexcept {
     solved_.store(done + 1);
     solved_.notify_one();
   }
+}
+
+void MpcRunner::WaitFor(std::int64_t tick) const noexcept {
+  if (!threaded_) return;
+  for (std::int64_t solved = solved_.load(); solved <= tick; solved = solved_.load())
+    solved_.wait(solved);
 }
 
 void MpcRunner::Submit() noexcept {
@@ -56,10 +73,7 @@ void MpcRunner::Submit() noexcept {
 
 const MpcRunner::Result& MpcRunner::Collect() noexcept {
   const std::int64_t tick = std::max<std::int64_t>(0, submitted_ - 1 - latency_);
-  if (threaded_) {
-    for (std::int64_t solved = solved_.load(); solved <= tick; solved = solved_.load())
-      solved_.wait(solved);
-  }
+  WaitFor(tick);
   return jobs_[Slot(tick)].result;
 }
 

@@ -27,7 +27,10 @@ class MpcRunner {
   /// `robot` is borrowed.
   MpcRunner(const MpcParams& params, const core::RobotDescription& robot, double gravity_mps2);
   ~MpcRunner();
-  MpcRunner(const MpcRunner&) = delete;
+  /// Waits until the thread of `other` has solved what was submitted; then both have every result
+  /// that is still to be collected, and the same warm start. To be called between Submit and the
+  /// next, by the thread that submits.
+  MpcRunner(const MpcRunner& other);
   MpcRunner& operator=(const MpcRunner&) = delete;
 
   /// Where the next problem is put together; valid until Submit.
@@ -51,6 +54,8 @@ class MpcRunner {
   }
   void Solve(std::int64_t tick) noexcept;
   void Work() noexcept;
+  /// Until the job of `tick` is solved.
+  void WaitFor(std::int64_t tick) const noexcept;
 
   int latency_;
   bool threaded_;

@@ -17,6 +17,9 @@ class InverseDynamics final : public WholeBodyController {
       : params_(params), effort_Nm_(robot.EffortLimits()) {}
 
   [[nodiscard]] WbcResult Solve(const WbcInput& in) noexcept override;
+  [[nodiscard]] std::unique_ptr<WholeBodyController> Clone() const override {
+    return std::make_unique<InverseDynamics>(*this);
+  }
 
  private:
   /// Where a foot's centre shall be relative to the trunk's origin, in W.

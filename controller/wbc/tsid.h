@@ -18,6 +18,9 @@ class Tsid final : public WholeBodyController {
   Tsid(const TsidParams& params, const core::RobotDescription& robot);
 
   [[nodiscard]] WbcResult Solve(const WbcInput& in) noexcept override;
+  [[nodiscard]] std::unique_ptr<WholeBodyController> Clone() const override {
+    return std::make_unique<Tsid>(*this);
+  }
 
   [[nodiscard]] const TsidRecord* last() const noexcept override { return &last_; }
 

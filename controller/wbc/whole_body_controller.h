@@ -37,6 +37,8 @@ class WholeBodyController {
  public:
   virtual ~WholeBodyController() = default;
   [[nodiscard]] virtual WbcResult Solve(const WbcInput& in) noexcept = 0;
+  /// A copy that goes on with the same bits; what is borrowed stays borrowed.
+  [[nodiscard]] virtual std::unique_ptr<WholeBodyController> Clone() const = 0;
   /// The last problem with its solution, for saving; null where there is no optimisation.
   [[nodiscard]] virtual const TsidRecord* last() const noexcept { return nullptr; }
 };
