@@ -63,10 +63,11 @@ Controller::Controller(const ControllerParams& params, const core::RobotDescript
 }
 
 const ControlOutput& Controller::Step(const SensorFrame& z, const Command& command,
-                                      const SolverFaults& faults) noexcept {
+                                      const SolverFaults& faults,
+                                      const TrueInputs& true_inputs) noexcept {
   out_.times = {};
   core::Lap lap(out_.times);
-  Feel(z);
+  Feel(z, true_inputs);
   lap.Book(core::Stage::kEstimation);
   out_.mpc_updated = out_.wbc_updated = false;
   out_.transitions.count = 0;
@@ -81,7 +82,7 @@ const ControlOutput& Controller::Step(const SensorFrame& z, const Command& comma
   if (operating_) {
     const bool plans_due = clock_.Due(mpc_every_), body_due = clock_.Due(wbc_every_);
     if (plans_due) {
-      StepPlans(command);
+      StepPlans(command, true_inputs.ground);
       lap.Book(core::Stage::kPlans);
       mpc_->Submit();
       TakePlan(faults.mpc);
@@ -139,7 +140,7 @@ void Controller::Reconfigure(const ControllerParams& params) {
 }
 
 /// Checks what the sensors say, then contacts, state, mass and the model at that state.
-void Controller::Feel(const SensorFrame& raw) noexcept {
+void Controller::Feel(const SensorFrame& raw, const TrueInputs& true_inputs) noexcept {
   const CheckedFrame& checked = samples_.Check(raw, counters_);
   if (clock_.step() == first_step_) {
     RobotState at_hand;
@@ -149,21 +150,49 @@ void Controller::Feel(const SensorFrame& raw) noexcept {
   const double plan_age_s = static_cast<double>(clock_.step() - contacts_step_) * clock_.step_s();
   out_.contact = contact_->Update(
       {checked.z, wb_, out_.contacts, plan_age_s, reference_planner_.plane(), foot_radius_m_});
+  if (true_inputs.contact) {
+    out_.contact.contact = *true_inputs.contact;
+    out_.contact.source = LegArray<ContactSource>(ContactSource::kTruth);
+  }
   out_.estimate =
       estimator_->Update({checked.z, checked.imu_dt_s, checked.imu_saturated, out_.contact, wb_,
                           reference_planner_.plane().Normal(), !operating_},
                          counters_);
+  SubstituteState(true_inputs);
   out_.adaptation =
       adapter_->Update({out_.estimate.state, checked.z, out_.contact, clock_.step_s(), operating_});
-  if (out_.adaptation.changed) model_.SetParameters(out_.adaptation.parameters);
+  UpdateModel(true_inputs);
   model_.Calc(out_.estimate.state, wb_);
   out_.model_mass_kg = wb_.mass_kg;
 }
 
-void Controller::StepPlans(const Command& asked) noexcept {
+void Controller::SubstituteState(const TrueInputs& true_inputs) noexcept {
+  if (!true_inputs.state) {
+    from_truth_.reset();
+    return;
+  }
+  RobotState& state = out_.estimate.state;
+  if (!from_truth_) from_truth_ = core::WorldShift::Between(*true_inputs.state, state);
+  state = from_truth_->Apply(*true_inputs.state);
+}
+
+void Controller::UpdateModel(const TrueInputs& true_inputs) noexcept {
+  if (true_inputs.trunk) {
+    model_.SetParameters(*true_inputs.trunk);
+  } else if (out_.adaptation.changed || model_is_true_) {
+    model_.SetParameters(out_.adaptation.parameters);
+  }
+  model_is_true_ = true_inputs.trunk.has_value();
+}
+
+void Controller::StepPlans(const Command& asked, const LocalGround* ground) noexcept {
   const Command command = supervisor_.Temper(asked, robot_.config.nominal_height_m);
   const double dt_s = mpc_every_ * clock_.step_s();
-  reference_planner_.ObserveFeet(wb_, out_.contact.contact, foot_radius_m_);
+  if (ground != nullptr) {
+    reference_planner_.ObserveGround(wb_, *ground);
+  } else {
+    reference_planner_.ObserveFeet(wb_, out_.contact.contact, foot_radius_m_);
+  }
   reference_ =
       reference_planner_.Plan(wb_, command, params_.mpc.horizon, params_.mpc.stage_s, dt_s);
 
@@ -183,8 +212,8 @@ void Controller::StepPlans(const Command& asked) noexcept {
   out_.contacts = gait_->Plan(gait);
   contacts_step_ = clock_.step();
   out_.legs = leg_states_.Update(out_.contacts, out_.contact.contact, 0.0, 0.0, counters_);
-  footholds_ =
-      foothold_planner_.Plan(wb_, out_.contacts, out_.legs, reference_, reference_planner_.plane());
+  footholds_ = foothold_planner_.Plan(wb_, out_.contacts, out_.legs, reference_,
+                                      reference_planner_.plane(), ground);
   out_.reference = reference_.stages[0];
   out_.ground_z_m = reference_.ground_z_m;
 

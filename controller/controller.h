@@ -22,7 +22,9 @@
 #include "core/clock.h"
 #include "core/clone_ptr.h"
 #include "core/robot/counters.h"
+#include "core/robot/local_ground.h"
 #include "core/robot/whole_body.h"
+#include "core/robot/world_shift.h"
 #include "core/stage_times.h"
 
 namespace scoria::controller {
@@ -110,6 +112,21 @@ struct SolverFaults {
   SolverFault mpc = SolverFault::kNone, wbc = SolverFault::kNone;
 };
 
+/// The truth in place of what one stage finds, for one step: to see what would have happened if
+/// that stage had been right. Stages run on all the same, and what comes after them takes the
+/// truth. An empty field changes nothing.
+struct TrueInputs {
+  /// In place of the estimated state, in the true world. Place and heading at which the
+  /// substitution begins stay those of the estimate, since the plans in force are laid out in its
+  /// world.
+  std::optional<RobotState> state;
+  std::optional<LegArray<bool>> contact;       // in place of the fused contact
+  std::optional<core::ModelParameters> trunk;  // in place of the adapted model
+  /// The ground itself in place of the plane through the last footholds: footholds lie on it, and
+  /// the plane that body and swing keep to is laid through it. Borrowed for the step.
+  const LocalGround* ground = nullptr;
+};
+
 /// @returns true if a stage needs SensorFrame::truth.
 [[nodiscard]] bool NeedsTruth(const ControllerParams& params) noexcept;
 
@@ -135,9 +152,11 @@ class Controller {
   Controller(const ControllerParams& params, const core::RobotDescription& robot,
              double gravity_mps2, double step_s, const Start& start = {});
 
-  /// @param faults played on the solvers if this is one of their ticks.
+  /// @param faults       played on the solvers if this is one of their ticks.
+  /// @param true_inputs  for studies only.
   [[nodiscard]] const ControlOutput& Step(const SensorFrame& z, const Command& command,
-                                          const SolverFaults& faults = {}) noexcept;
+                                          const SolverFaults& faults = {},
+                                          const TrueInputs& true_inputs = {}) noexcept;
 
   /// Changes variants and parameters while walking, between two steps: phases, targets, estimates
   /// and the plan in force are kept; stages that do not change are not touched. Rates stay as they
@@ -154,8 +173,10 @@ class Controller {
   [[nodiscard]] const WholeBodyController& wbc() const noexcept { return *wbc_; }
 
  private:
-  void Feel(const SensorFrame& z) noexcept;
-  void StepPlans(const Command& command) noexcept;
+  void Feel(const SensorFrame& z, const TrueInputs& true_inputs) noexcept;
+  void SubstituteState(const TrueInputs& true_inputs) noexcept;
+  void UpdateModel(const TrueInputs& true_inputs) noexcept;
+  void StepPlans(const Command& command, const LocalGround* ground) noexcept;
   void TakePlan(SolverFault fault) noexcept;
   void StepBody(SolverFault fault) noexcept;
   [[nodiscard]] WbcResult SolveBody(const WbcInput& in, SolverFault fault) noexcept;
@@ -197,7 +218,9 @@ class Controller {
   };
   DatedPlan active_, late_;  // in force; came too late for the last tick
   std::int64_t mpc_since_ = 0, contacts_step_ = 0, command_step_ = 0;
-  bool body_answered_ = true, torque_spent_ = false;
+  bool body_answered_ = true;
+  std::optional<core::WorldShift> from_truth_;  // to the estimate's world, while that is replaced
+  bool model_is_true_ = false;
   Counters counters_;
   ControlOutput out_;
 };

@@ -50,7 +50,8 @@ const LegArray<Vec3>& Actuation::Update(const JointCommand& given, const Encoder
           command.kp_Nm_per_rad[leg][j] * (command.q[leg][j] - measured.q[leg][j]) +
           command.kd_Nms_per_rad[leg][j] * (command.qd[leg][j] - measured.qd[leg][j]);
       const double no_load = robot_.legs[leg].joints[static_cast<std::size_t>(j)].velocity_radps;
-      motor_tau_Nm_[leg][j] = Envelope(wanted, qd[leg][j], effort_Nm_[leg][j], no_load);
+      motor_tau_Nm_[leg][j] =
+          Envelope(wanted, qd[leg][j], torque_limit_scale_ * effort_Nm_[leg][j], no_load);
     }
   }
   return motor_tau_Nm_;

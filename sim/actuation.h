@@ -48,6 +48,11 @@ class Actuation {
   [[nodiscard]] const EnergyMeter& energy() const noexcept { return energy_; }
   [[nodiscard]] const BatteryState& battery() const noexcept { return battery_.state(); }
 
+  /// Motors that are weaker or stronger than the robot's description says, from the next step on:
+  /// scales the greatest torque at every speed. What the controller takes for the limit is its own.
+  /// @pre scale >= 0.
+  void SetTorqueLimitScale(double scale) noexcept { torque_limit_scale_ = scale; }
+
   /// Forgets torques and the commands that are still on their way, after the robot was placed.
   void Reset() noexcept {
     pending_ = 0;
@@ -59,6 +64,7 @@ class Actuation {
 
   const core::RobotDescription& robot_;
   LegArray<Vec3> effort_Nm_;
+  double torque_limit_scale_ = 1.0;
   LegArray<Vec3> motor_tau_Nm_ = ZeroPerLeg();
   EnergyMeter energy_;
   Battery battery_;

@@ -150,6 +150,15 @@ std::vector<TrunkChange> PayloadRack::Update(const core::EventClock& now) {
   return changes;
 }
 
+std::optional<TrunkChange> PayloadRack::RemoveAll() {
+  events_.clear();
+  timers_.clear();
+  items_.clear();
+  if (trunk_ == bare_trunk_) return std::nullopt;
+  trunk_ = bare_trunk_;
+  return TrunkChange{bare_trunk_, AttachVelocity::kMatched};
+}
+
 /// @returns the announcement.
 std::string PayloadRack::Begin(const PayloadEvent& event, double begin_s) {
   const Ramp ramp{begin_s, event.duration_s};

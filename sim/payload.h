@@ -98,6 +98,10 @@ class PayloadRack {
   ///          and some did not.
   [[nodiscard]] std::vector<TrunkChange> Update(const core::EventClock& now);
 
+  /// Takes every body off at once, as a `remove` does, and calls off what is still to come.
+  /// @returns the change to make, none if nothing is on the trunk.
+  [[nodiscard]] std::optional<TrunkChange> RemoveAll();
+
   /// What each event that began in the last Update does, or why it does nothing.
   [[nodiscard]] const std::vector<std::string>& announcements() const noexcept {
     return announcements_;

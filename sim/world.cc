@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "core/demand.h"
 #include "core/math/so3.h"
 #include "core/robot/kinematics.h"
 #include "sim/contact/contact_finder.h"
@@ -42,6 +43,7 @@ struct World::Impl {
   std::int64_t unconverged_steps = 0;
   Truth truth;
   Vec3 impact_v_WB = Vec3::Zero();  // change of v_WB since the last step, by payloads
+  double friction_scale = 1.0;
   Vec3 f_trunk_W = Vec3::Zero(), t_trunk_W = Vec3::Zero();
 };
 
@@ -66,7 +68,8 @@ void World::Impl::FindContacts() {
   LegArray<bool> near(false);
   for (ContactPoint& c : contacts) {
     const Vec3 p_WP = state.p_WB + c.p_BP_W;
-    const terrains::GroundSample sample = ground.GroundAt(p_WP.x(), p_WP.y());
+    terrains::GroundSample sample = ground.GroundAt(p_WP.x(), p_WP.y());
+    sample.friction *= friction_scale;
     if (!c.is_foot) {
       PrepareBodyContact(sample, load_kg, c);
       continue;
@@ -216,6 +219,22 @@ std::int64_t World::unconverged_steps() const noexcept { return impl_->unconverg
 void World::SetTrunkWrench(const Vec3& f_W, const Vec3& t_W) {
   impl_->f_trunk_W = f_W;
   impl_->t_trunk_W = t_W;
+}
+
+void World::SetFrictionScale(double scale) {
+  SCORIA_DEMAND(scale >= 0.0, "friction scale {}", scale);
+  impl_->friction_scale = scale;
+}
+
+void World::RemoveSlidingPayload() {
+  Impl& w = *impl_;
+  if (!w.sliding) return;
+  EnergyLedger& e = w.truth.energy;
+  const double before_J = e.kinetic_J + e.potential_J;
+  w.sliding.reset();
+  w.truth.slide_m = w.truth.slide_mps = 0.0;
+  w.UpdateTruth();
+  e.work.external_J += e.kinetic_J + e.potential_J - before_J;
 }
 
 void World::SetTrunkParameters(const core::SpatialInertia& trunk, AttachVelocity attach_velocity) {

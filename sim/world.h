@@ -93,6 +93,14 @@ class World {
   /// changed.
   void SetTrunkWrench(const Vec3& f_W, const Vec3& t_W);
 
+  /// Scales the friction of all of the ground from the next step on; stays over Reset.
+  /// @pre scale >= 0.
+  void SetFrictionScale(double scale);
+
+  /// Takes a sliding payload off: it goes on with the velocity it has, the robot with its own. No
+  /// effect without one.
+  void RemoveSlidingPayload();
+
   /// Changes mass, centre of mass and inertia of the trunk between two steps. Where what was added
   /// moved with the trunk (kMatched), all velocities stay. Where it was at rest (kRest), it joins
   /// in a perfectly plastic impact, H' v' = H v over all coordinates, so the robot's linear and

@@ -23,12 +23,22 @@ void ReferencePlanner::ObserveFeet(const core::WholeBody& wb, const LegArray<boo
     if (started_ && !contact[leg]) continue;
     foothold_W_[leg] = wb.p_WF[leg] - Vec3(0.0, 0.0, foot_radius_m);
   }
-  FitPlane(wb.state.p_WB);
+  FitPlane(wb.state.p_WB, started_ ? params_.plane_slope_gain : 1.0,
+           started_ ? params_.plane_height_gain : 1.0);
+}
+
+void ReferencePlanner::ObserveGround(const core::WholeBody& wb,
+                                     const LocalGround& ground) noexcept {
+  for (const Leg leg : kLegs) {
+    foothold_W_[leg] = wb.p_WF[leg];
+    foothold_W_[leg].z() = ground.Height(wb.state, wb.p_WF[leg]);
+  }
+  FitPlane(wb.state.p_WB, 1.0, 1.0);
 }
 
 /// Least-squares plane through the four last footholds, low-passed; its height at the body is
 /// filtered on its own.
-void ReferencePlanner::FitPlane(const Vec3& p_WB) noexcept {
+void ReferencePlanner::FitPlane(const Vec3& p_WB, double slope_gain, double height_gain) noexcept {
   Vec3 mean = Vec3::Zero();
   for (const Vec3& p : foothold_W_) mean += p / kNumLegs;
   Eigen::Matrix2d A = Eigen::Matrix2d::Zero();
@@ -42,8 +52,6 @@ void ReferencePlanner::FitPlane(const Vec3& p_WB) noexcept {
   constexpr double kMaxSlope = 1.0;
   const Vec2 slope = (A + kRidge_m2 * Eigen::Matrix2d::Identity()).inverse() * b;
   const Vec2 bounded = slope.cwiseMax(-kMaxSlope).cwiseMin(kMaxSlope);
-  const double slope_gain = started_ ? params_.plane_slope_gain : 1.0;
-  const double height_gain = started_ ? params_.plane_height_gain : 1.0;
   const double z_before = plane_.Height(p_WB);
   plane_.slope += slope_gain * (bounded - plane_.slope);
   const double z_fit = mean.z() + plane_.slope.dot((p_WB - mean).head<2>());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/config/archive.h"
+#include "core/robot/local_ground.h"
 #include "core/robot/plans.h"
 #include "core/robot/whole_body.h"
 
@@ -46,6 +47,10 @@ class ReferencePlanner {
   void ObserveFeet(const core::WholeBody& wb, const LegArray<bool>& contact,
                    double foot_radius_m) noexcept;
 
+  /// Where the ground is known, in place of ObserveFeet: the plane is the one through the ground
+  /// below the four feet, at once.
+  void ObserveGround(const core::WholeBody& wb, const LocalGround& ground) noexcept;
+
   [[nodiscard]] BodyReference Plan(const core::WholeBody& wb, const Command& command, int horizon,
                                    double stage_s, double dt_s) noexcept;
 
@@ -55,7 +60,7 @@ class ReferencePlanner {
 
  private:
   void Ramp(const Command& command, double dt_s) noexcept;
-  void FitPlane(const Vec3& p_WB) noexcept;
+  void FitPlane(const Vec3& p_WB, double slope_gain, double height_gain) noexcept;
 
   ReferenceParams params_;
   double nominal_height_m_;

@@ -28,7 +28,7 @@ Vec3 FootholdPlanner::TouchdownAfter(const Tick& t, Leg leg, double delay_s) con
   reach.z() = 0.0;
   if (reach.norm() > params_.max_reach_m) reach *= params_.max_reach_m / reach.norm();
   Vec3 p_WF = p_WB + R_WH * robot_.NeutralFoothold(leg) + reach;
-  p_WF.z() = t.plane.Height(p_WF) + robot_.legs[leg].foot_radius_m;
+  p_WF.z() = t.GroundHeight(p_WF) + robot_.legs[leg].foot_radius_m;
   const Vec3 step = p_WF - last_W_[leg];
   if (std::abs(step.z()) > params_.max_step_height_m)
     p_WF = last_W_[leg] + params_.max_step_height_m / std::abs(step.z()) * step;
@@ -42,11 +42,12 @@ double FootholdPlanner::DistanceFromNeutral(const core::WholeBody& wb, Leg leg) 
 
 FootholdPlan FootholdPlanner::Plan(const core::WholeBody& wb, const ContactPlan& contacts,
                                    const LegPhases& legs, const BodyReference& reference,
-                                   const GroundPlane& plane) noexcept {
+                                   const GroundPlane& plane, const LocalGround* ground) noexcept {
   const Tick tick{wb,
                   contacts,
                   reference.stages[0],
                   plane,
+                  ground,
                   velocity_.Update(wb.v_WC),
                   wb.p_WC.z() - plane.Height(wb.p_WC),
                   core::RpyFromRotation(wb.state.R_WB).z()};

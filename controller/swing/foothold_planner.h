@@ -3,6 +3,7 @@
 
 #include "core/config/archive.h"
 #include "core/math/moving_mean.h"
+#include "core/robot/local_ground.h"
 #include "core/robot/plans.h"
 #include "core/robot/whole_body.h"
 
@@ -38,9 +39,11 @@ class FootholdPlanner {
   FootholdPlanner(const FootholdParams& params, const core::RobotDescription& robot,
                   double gravity_mps2) noexcept;
 
+  /// @param ground  where the ground is known: footholds lie on it instead of on the plane.
   [[nodiscard]] FootholdPlan Plan(const core::WholeBody& wb, const ContactPlan& contacts,
                                   const LegPhases& legs, const BodyReference& reference,
-                                  const GroundPlane& plane) noexcept;
+                                  const GroundPlane& plane,
+                                  const LocalGround* ground = nullptr) noexcept;
 
   /// Level distance of a foot from its place under the body as it is.
   [[nodiscard]] double DistanceFromNeutral(const core::WholeBody& wb, Leg leg) const noexcept;
@@ -57,8 +60,12 @@ class FootholdPlanner {
     const ContactPlan& contacts;
     const BodyReference::Stage& reference;
     const GroundPlane& plane;
+    const LocalGround* ground;
     Vec3 v_W;  // filtered velocity of the COM
     double height_m, yaw_rad;
+    [[nodiscard]] double GroundHeight(const Vec3& p_W) const noexcept {
+      return ground != nullptr ? ground->Height(wb.state, p_W) : plane.Height(p_W);
+    }
   };
   [[nodiscard]] Vec3 TouchdownAfter(const Tick& tick, Leg leg, double delay_s) const noexcept;
 

@@ -26,6 +26,22 @@ TEST(Actuation, TorqueIsLimitedByEffortAndSpeed) {
   EXPECT_EQ(actuation.motor_tau_Nm()[Leg::kFL].y(), 23.7);
 }
 
+TEST(Actuation, TorqueLimitScalesAtEverySpeed) {
+  Actuation actuation(test::Go2());
+  JointCommand command;
+  command.tau_Nm[Leg::kFL] = {100.0, -100.0, 1.0};
+  LegArray<Vec3> qd = ZeroPerLeg();
+  qd[Leg::kFL].y() = -0.85 * 30.1;  // half-way from the knee of the envelope to no load
+  actuation.SetTorqueLimitScale(0.5);
+  (void)actuation.Update(command, kStill, qd, 1e-3);
+  EXPECT_EQ(actuation.motor_tau_Nm()[Leg::kFL].x(), 0.5 * 23.7);
+  EXPECT_NEAR(actuation.motor_tau_Nm()[Leg::kFL].y(), -0.5 * 0.5 * 23.7, 1e-9);
+  EXPECT_EQ(actuation.motor_tau_Nm()[Leg::kFL].z(), 1.0) << "within the limit";
+  actuation.SetTorqueLimitScale(2.0);
+  (void)actuation.Update(command, kStill, kRest, 1e-3);
+  EXPECT_EQ(actuation.motor_tau_Nm()[Leg::kFL].x(), 2.0 * 23.7);
+}
+
 TEST(Actuation, JointControlPullsTowardsTheTarget) {
   Actuation actuation(test::Go2());
   JointCommand command;

@@ -213,6 +213,20 @@ TEST(PayloadRack, AddedThenRemovedRestoresTheTrunkBitForBit) {
   EXPECT_EQ(world.truth().trunk, before);
 }
 
+TEST(PayloadRack, AllOffIsTheBareTrunkForGood) {
+  PayloadEvent slow = AddAt(1.0, {"kit", 1.19, {0.0137, -0.021, 0.11}, {0.0, 0.0, 0.0}, {0.18, 0.14, 0.06}});
+  slow.duration_s = 2.0;
+  PayloadRack rack(BareTrunk(), {AddAt(0.5, Plate()), slow, AddAt(4.0, {"late", 1.0})});
+  EXPECT_EQ(rack.RemoveAll(), std::nullopt) << "nothing is on the trunk";
+  rack = PayloadRack(BareTrunk(), {AddAt(0.5, Plate()), slow, AddAt(4.0, {"late", 1.0})});
+  (void)rack.Update(At(2.0, 0.0));
+  EXPECT_EQ(rack.RemoveAll(), (TrunkChange{BareTrunk(), AttachVelocity::kMatched}));
+  EXPECT_TRUE(rack.Update(At(2.5, 0.0)).empty()) << "the kit is added no further";
+  EXPECT_TRUE(rack.Update(At(5.0, 0.0)).empty()) << "what is still to come is called off";
+  EXPECT_TRUE(rack.announcements().empty());
+  EXPECT_EQ(rack.RemoveAll(), std::nullopt);
+}
+
 TEST(PayloadRack, GradualEventsRunOnTheClock) {
   PayloadEvent add = AddAt(1.0, Plate());
   add.duration_s = 4.0;
@@ -472,6 +486,34 @@ TEST(SlidingPayload, MomentumIsKeptInFlightAndInAnImpact) {
   EXPECT_LT((hit - flown).head<3>().norm(), 1e-9 * flown.head<3>().norm());
   EXPECT_LT((hit - flown).tail<3>().norm(), 1e-9 * flown.tail<3>().norm());
   EXPECT_GT(std::abs(world.truth().slide_mps - rate_mps), 0.05) << "it shoots forth";
+}
+
+// The robot flies on as one that never had it, from the state in which it lost it.
+TEST(SlidingPayload, TakenOffLeavesTheRobotItsVelocity) {
+  const terrains::Heightfield ground = test::FlatGround();
+  World world(test::Go2(), ground, {}, kGravity, Block()), bare(test::Go2(), ground, {}, kGravity);
+  RobotState s = test::StandingState();
+  s.p_WB.z() = 5.0;
+  s.v_WB = {0.5, 1.0, 0.2};
+  s.w_WB = {0.5, -0.4, 0.8};
+  world.Reset(s);
+  for (int i = 0; i < 200; ++i) world.Step(Hold(world.truth().state, s.q));
+  const Truth before = world.truth();
+  ASSERT_NE(before.slide_mps, 0.0);
+  world.RemoveSlidingPayload();
+  EXPECT_EQ(world.truth().state, before.state);
+  EXPECT_DOUBLE_EQ(world.truth().mass_kg, test::Go2().total_mass_kg());
+  EXPECT_EQ(world.truth().slide_m, 0.0);
+  EXPECT_EQ(world.truth().slide_mps, 0.0);
+  EXPECT_NEAR(world.truth().energy.Error_J(), before.energy.Error_J(), 1e-9);
+  bare.Reset(before.state);
+  for (int i = 0; i < 100; ++i) {
+    for (World* w : {&world, &bare}) w->Step(Hold(w->truth().state, s.q));
+  }
+  EXPECT_LT((world.truth().state.p_WB - bare.truth().state.p_WB).norm(), 1e-6);
+  EXPECT_LT((world.truth().state.w_WB - bare.truth().state.w_WB).norm(), 1e-6);
+  world.RemoveSlidingPayload();
+  EXPECT_EQ(world.truth().mass_kg, bare.truth().mass_kg);
 }
 
 TEST(SlidingPayload, MistakesAreNamed) {

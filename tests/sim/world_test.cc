@@ -97,6 +97,32 @@ TEST(World, FrictionConeIsExactOnSlopes) {
   }
 }
 
+// The scale moves the cone's edge for all of the ground, at once and back.
+TEST(World, FrictionScaleMovesTheCone) {
+  constexpr double kMu = 0.6, kScale = 0.5;
+  const terrains::Heightfield ground = test::FlatGround(kMu, 40.0);
+  for (const double share : {0.99, 1.01}) {
+    const double slope = std::atan(share * kScale * kMu);
+    World world(test::Go2(), ground, {}, 9.81 * Vec3(std::sin(slope), 0.0, -std::cos(slope)));
+    const RobotState start = LowStance();
+    world.Reset(start);
+    const auto speed_after_a_second = [&] {
+      for (int i = 0; i < 1000; ++i) world.Step(Hold(world.truth().state, start.q, 1500.0, 20.0));
+      return world.truth().state.v_WB.x();
+    };
+    EXPECT_LT(std::abs(speed_after_a_second()), 1e-4);
+    world.SetFrictionScale(kScale);
+    const double block = 9.81 * (std::sin(slope) - kScale * kMu * std::cos(slope));
+    if (share < 1.0) {
+      EXPECT_LT(std::abs(speed_after_a_second()), 1e-4);
+    } else {
+      EXPECT_NEAR(speed_after_a_second(), block, 0.5 * block);
+    }
+    world.SetFrictionScale(1.0);
+    EXPECT_LT(std::abs(speed_after_a_second()), 1e-4);
+  }
+}
+
 // Damping acts implicitly and friction as a bounded impulse: while all joints move, one step gives
 // (H + A + D dt)⁻¹(τ − friction − h − D qd).
 TEST(World, JointLossesActInsideTheStepExactly) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/support/closed_loop.h"
 
+#include "sim/true_ground.h"
 #include "tests/support/motion.h"
 #include "tests/support/robots.h"
 
@@ -25,6 +26,7 @@ ClosedLoop::ClosedLoop(const LoopParams& params, const core::RobotDescription& r
       actuation(robot),
       sensors(robot, params.sensors, params.sensor_faults, kGravity_W, kStep_s, kSeed),
       controller(params.controller, robot, kGravity_mps2, kStep_s, StartIn(params.pose)),
+      ground_(ground),
       params_(params),
       fault_rng_(kSeed, 0, core::Stream::kSolverFault) {
   RobotState state = StandingState();
@@ -45,7 +47,10 @@ void ClosedLoop::Step() {
   controller::SolverFaults faults;
   if (fault_rng_.NextUniform() < params_.fault_share) faults.mpc = controller::SolverFault::kLate;
   if (fault_rng_.NextUniform() < params_.fault_share) faults.wbc = controller::SolverFault::kFail;
-  control_ = controller.Step(z, command, faults);
+  const sim::TrueGround true_ground(ground_, world.truth().state);
+  controller::TrueInputs true_inputs = CollectTrueInputs(z);
+  if (substitute.ground) true_inputs.ground = &true_ground;
+  control_ = controller.Step(z, command, faults, true_inputs);
   for (const sim::TrunkChange& change : payloads.Update(now))
     world.SetTrunkParameters(change.trunk, change.attach_velocity);
   const LegArray<Vec3> qd_before = world.truth().state.qd;
@@ -53,6 +58,14 @@ void ClosedLoop::Step() {
   actuation.Meter(qd_before, world.truth().state.qd, kStep_s);
   Add(z);
   ++step_;
+}
+
+controller::TrueInputs ClosedLoop::CollectTrueInputs(const SensorFrame& z) const {
+  controller::TrueInputs inputs;
+  if (substitute.state) inputs.state = z.truth->state;
+  if (substitute.contact) inputs.contact = z.truth->contact;
+  if (substitute.trunk) inputs.trunk = world.truth().trunk;
+  return inputs;
 }
 
 void ClosedLoop::Run(int steps) {

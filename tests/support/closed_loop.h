@@ -42,6 +42,12 @@ class ClosedLoop {
   [[nodiscard]] int steps() const noexcept { return step_; }
   [[nodiscard]] const controller::ControlOutput& control() const noexcept { return control_; }
 
+  /// What of the truth the controller is given in place of its own findings.
+  struct Substitute {
+    bool state = false, contact = false, trunk = false, ground = false;
+  };
+  Substitute substitute;
+
   sim::World world;
   sim::PayloadRack payloads;
   sim::Actuation actuation;
@@ -50,8 +56,10 @@ class ClosedLoop {
   Command walk{.v_x_mps = 0.35, .w_z_radps = 0.2};
 
  private:
+  [[nodiscard]] controller::TrueInputs CollectTrueInputs(const SensorFrame& z) const;
   void Add(const SensorFrame& z);
 
+  const terrains::Heightfield& ground_;
   LoopParams params_;
   core::Rng fault_rng_;
   core::Hash64 hash_;

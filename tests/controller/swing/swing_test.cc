@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -190,6 +191,60 @@ TEST(FootholdPlanner, StepsAboveReachAreShortened) {
   const Vec3 step =
       planner.Plan(wb, contacts, LegPhases{}, reference, plane).next[Leg::kFL] - wb.p_WF[Leg::kFL];
   EXPECT_NEAR(step.z(), 0.05, 1e-3);
+}
+
+/// Rises 0.1 per metre ahead of the trunk, with a kerb of 0.05 m at 0.25 m. The trunk is 0.28 m up.
+class Kerb final : public LocalGround {
+ public:
+  [[nodiscard]] double HeightOverTrunk(const Vec2& p_BP_H) const noexcept override {
+    return -0.28 + 0.1 * p_BP_H.x() + (p_BP_H.x() > 0.25 ? 0.05 : 0.0);
+  }
+};
+
+/// The same robot elsewhere, turned by `yaw_rad`.
+core::WholeBody Placed(const Vec3& p_WB, double yaw_rad) {
+  RobotState s = test::StandingState();
+  s.p_WB = p_WB;
+  s.R_WB = core::RotationZ(yaw_rad);
+  core::WholeBody wb;
+  core::WholeBodyModel(test::Go2(), 9.81).Calc(s, wb);
+  return wb;
+}
+
+// Footholds lie on the ground that is known, wherever the robot believes itself to be.
+TEST(FootholdPlanner, KnownGroundReplacesThePlane) {
+  ContactPlan contacts;
+  contacts.standing = false;
+  contacts.horizon = 2;
+  contacts.duty = LegArray<double>(0.6);
+  contacts.stance_s = LegArray<double>(0.3);
+  contacts.swing_s = LegArray<double>(0.2);
+  const BodyReference reference;
+  const Kerb kerb;
+  for (const double yaw_rad : {0.0, 2.0}) {
+    const Vec3 p_WB(3.0, -2.0, 1.0);
+    const core::WholeBody wb = Placed(p_WB, yaw_rad);
+    FootholdPlanner planner({}, test::Go2(), 9.81);
+    const FootholdPlan plan =
+        planner.Plan(wb, contacts, LegPhases{}, reference, GroundPlane{}, &kerb);
+    for (const Leg leg : kLegs) {
+      const Vec3 p_BF_H = core::RotationZ(-yaw_rad) * (plan.next[leg] - p_WB);
+      EXPECT_NEAR(p_BF_H.z(), kerb.HeightOverTrunk(p_BF_H.head<2>()) + 0.022, 1e-9) << yaw_rad;
+    }
+  }
+}
+
+TEST(ReferencePlanner, KnownGroundGivesThePlaneAtOnce) {
+  ReferencePlanner planner({}, 0.30);
+  const Kerb kerb;
+  const Vec3 p_WB(3.0, -2.0, 1.0);
+  const core::WholeBody wb = Placed(p_WB, 0.5 * std::numbers::pi);
+  planner.ObserveGround(wb, kerb);
+  EXPECT_NEAR(planner.plane().slope.y(), 0.1, 1e-3) << "feet are within 0.25 m: no kerb";
+  EXPECT_NEAR(planner.plane().slope.x(), 0.0, 1e-3);
+  EXPECT_NEAR(planner.plane().Height(p_WB), 1.0 - 0.28, 1e-3);
+  const BodyReference reference = planner.Plan(wb, Command{}, 2, 0.05, 0.01);
+  EXPECT_NEAR(reference.stages[0].p_WC.z(), reference.ground_z_m + 0.30, 1e-9);
 }
 
 TEST(ReferencePlanner, FollowsTheGroundPlaneAndHoldsStillWhenStanding) {
