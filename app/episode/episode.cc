@@ -9,6 +9,7 @@
 #include "app/episode/rows.h"
 #include "app/episode/state_hash.h"
 #include "core/math/so3.h"
+#include "sim/true_ground.h"
 
 namespace scoria::app {
 namespace {
@@ -61,6 +62,41 @@ void Episode::Attach(EpisodeObserver& observer) {
   observers_.push_back(&observer);
 }
 
+std::unique_ptr<Episode> Episode::Clone() const {
+  std::unique_ptr<Episode> clone(new Episode(*this));
+  clone->observers_.clear();
+  return clone;
+}
+
+void Episode::Intervene(const Intervention& intervention) {
+  std::visit([this](const auto& change) { Apply(change); }, intervention);
+  Announce("intervention", Describe(intervention));
+}
+
+void Episode::Apply(const PayloadOff&) {
+  if (const auto change = payloads_.RemoveAll())
+    world_.SetTrunkParameters(change->trunk, change->attach_velocity);
+  world_.RemoveSlidingPayload();
+}
+
+void Episode::Apply(const controller::ControllerParams& params) {
+  changes_.Override(params);
+  controller_->Reconfigure(params);
+}
+
+/// What studies give the controller in place of its own findings; the ground is given in Step.
+controller::TrueInputs Episode::TrueInputsNow() const {
+  controller::TrueInputs inputs;
+  const sim::Truth& truth = world_.truth();
+  if (truth_for_.state) inputs.state = truth.state;
+  if (truth_for_.model) inputs.trunk = core::ModelParameters{truth.trunk};
+  if (!truth_for_.contact) return inputs;
+  inputs.contact.emplace();
+  for (const Leg leg : kLegs)
+    (*inputs.contact)[leg] = truth.f_normal_N[leg] > sim::kTrueContactForce_N;
+  return inputs;
+}
+
 /// Sensors, operator, controller, actuation, world.
 void Episode::Step() {
   core::Lap lap(result_.times);
@@ -70,7 +106,11 @@ void Episode::Step() {
   faults_ = solver_faults_.Draw(clock());
   lap.Book(core::Stage::kSensors);
   retired_.reset();
-  const controller::ControlOutput& control = controller_->Step(sensed_, command_, faults_);
+  const sim::TrueGround true_ground(ground_, world_.truth().state);
+  controller::TrueInputs true_inputs = TrueInputsNow();
+  if (truth_for_.ground) true_inputs.ground = &true_ground;
+  const controller::ControlOutput& control =
+      controller_->Step(sensed_, command_, faults_, true_inputs);
   lap = core::Lap(result_.times);
   result_.times += control.times;
   solver_faults_.CountInjected(faults_, control);

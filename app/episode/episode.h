@@ -10,11 +10,13 @@
 #include "analysis/signals/path.h"
 #include "analysis/signals/stuck.h"
 #include "app/episode/episode_result.h"
+#include "app/episode/intervention.h"
 #include "app/episode/observer.h"
 #include "app/episode/operator.h"
 #include "app/episode/solver_fault_player.h"
 #include "app/episode/timeline.h"
 #include "app/scenario/scenario.h"
+#include "core/clone_ptr.h"
 #include "sim/sensors/sensors.h"
 
 namespace scoria::app {
@@ -31,6 +33,14 @@ class Episode {
   /// Lets an observer, which is borrowed, see every step from here on. It first hears the events so
   /// far and the placement in force.
   void Attach(EpisodeObserver& observer);
+
+  /// A copy of the whole: plant, sensors, every stage of the controller, operator. It goes on with
+  /// the bits that this one would have; observers stay with the original.
+  [[nodiscard]] std::unique_ptr<Episode> Clone() const;
+
+  /// Changes what happens from the next step on, and announces it. A change of the controller holds
+  /// until the scenario's next one.
+  void Intervene(const Intervention& intervention);
 
   /// One physics step. @pre not ended().
   void Step();
@@ -53,6 +63,13 @@ class Episode {
   [[nodiscard]] EpisodeResult Result() const;
 
  private:
+  Episode(const Episode&) = default;
+  void Apply(const FrictionScale& friction) { world_.SetFrictionScale(friction.factor); }
+  void Apply(const TorqueLimitScale& limits) { actuation_.SetTorqueLimitScale(limits.factor); }
+  void Apply(const PayloadOff&);
+  void Apply(const TruthFor& stages) { truth_for_ = stages; }
+  void Apply(const controller::ControllerParams& params);
+  [[nodiscard]] controller::TrueInputs TrueInputsNow() const;
   [[nodiscard]] Command NextCommand();
   void MakeChanges();
   void Show();
@@ -92,7 +109,8 @@ class Episode {
   analysis::StuckDetector stuck_detector_;
   analysis::PathLength path_;
   std::optional<controller::Start> start_;  // the placement in force
-  std::unique_ptr<controller::Controller> controller_;
+  core::ClonePtr<controller::Controller> controller_;
+  TruthFor truth_for_;
 
   // The last step.
   SensorFrame sensed_;

@@ -34,6 +34,7 @@ ControllerChanges::ControllerChanges(const Scenario& scenario)
 const ControllerChange* ControllerChanges::Next(const core::EventClock& now) {
   if (made_ == changes_.size() || !timers_[made_].BeginAfter(changes_[made_].at_s, now))
     return nullptr;
+  override_.reset();
   return &changes_[made_++];
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "app/scenario/scenario.h"
@@ -39,8 +40,10 @@ class ControllerChanges {
   /// Makes at most one change, so that each is told on its own; call again until nothing is
   /// returned. @returns the change that was made.
   [[nodiscard]] const ControllerChange* Next(const core::EventClock& now);
+  /// Holds until the next change.
+  void Override(const controller::ControllerParams& params) { override_ = params; }
   [[nodiscard]] const controller::ControllerParams& in_force() const {
-    return made_ == 0 ? first_ : after_[made_ - 1];
+    return override_ ? *override_ : made_ == 0 ? first_ : after_[made_ - 1];
   }
 
  private:
@@ -49,6 +52,7 @@ class ControllerChanges {
   std::vector<controller::ControllerParams> after_;  // each change
   std::vector<core::EventTimer> timers_;
   std::size_t made_ = 0;
+  std::optional<controller::ControllerParams> override_;
 };
 
 }  // namespace scoria::app

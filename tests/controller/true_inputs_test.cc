@@ -120,7 +120,7 @@ TEST(TrueInputs, ModelIsTheTrueOneWhileItIsGiven) {
   loop.substitute.trunk = true;
   loop.Step();
   EXPECT_NEAR(loop.control().model_mass_kg, nominal_kg + 3.0, 1e-9);
-  EXPECT_EQ(loop.controller.model(), loop.world.truth().trunk);
+  EXPECT_EQ(loop.controller.model().trunk, loop.world.truth().trunk);
   loop.substitute.trunk = false;
   loop.Step();
   EXPECT_EQ(loop.control().model_mass_kg, nominal_kg);

@@ -64,7 +64,7 @@ controller::TrueInputs ClosedLoop::CollectTrueInputs(const SensorFrame& z) const
   controller::TrueInputs inputs;
   if (substitute.state) inputs.state = z.truth->state;
   if (substitute.contact) inputs.contact = z.truth->contact;
-  if (substitute.trunk) inputs.trunk = world.truth().trunk;
+  if (substitute.trunk) inputs.trunk = core::ModelParameters{world.truth().trunk};
   return inputs;
 }
 
