@@ -24,7 +24,8 @@ LoopParams WithErrors() {
   params.controller.adaptation = NoAdaptationParams{};
   sim::PayloadEvent add;
   add.at_s = 0.0;
-  add.body = sim::PayloadParams{"plate", 3.0, {0.02, 0.05, 0.09}, {0.0, 0.0, 0.0}, {0.2, 0.2, 0.02}};
+  add.body =
+      sim::PayloadParams{"plate", 3.0, {0.02, 0.05, 0.09}, {0.0, 0.0, 0.0}, {0.2, 0.2, 0.02}};
   params.payloads = {add};
   return params;
 }

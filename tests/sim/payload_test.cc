@@ -214,7 +214,8 @@ TEST(PayloadRack, AddedThenRemovedRestoresTheTrunkBitForBit) {
 }
 
 TEST(PayloadRack, AllOffIsTheBareTrunkForGood) {
-  PayloadEvent slow = AddAt(1.0, {"kit", 1.19, {0.0137, -0.021, 0.11}, {0.0, 0.0, 0.0}, {0.18, 0.14, 0.06}});
+  PayloadEvent slow =
+      AddAt(1.0, {"kit", 1.19, {0.0137, -0.021, 0.11}, {0.0, 0.0, 0.0}, {0.18, 0.14, 0.06}});
   slow.duration_s = 2.0;
   PayloadRack rack(BareTrunk(), {AddAt(0.5, Plate()), slow, AddAt(4.0, {"late", 1.0})});
   EXPECT_EQ(rack.RemoveAll(), std::nullopt) << "nothing is on the trunk";

@@ -100,7 +100,7 @@ TEST_P(EpisodeClone, InterventionsConcernOneAlone) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, EpisodeClone, ::testing::ValuesIn(Cases()),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& test) { return std::string(test.param.name); });
 
 // Each intervention changes the walk, is announced, and one that changes nothing leaves the bits.
 TEST(Intervention, ChangesTheWalkAndSaysSo) {
