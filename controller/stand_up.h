@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "core/config/archive.h"
+#include "core/config/field.h"
 #include "core/robot/description.h"
 #include "core/robot/state.h"
 

@@ -2,6 +2,7 @@
 #include "core/text.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include <fmt/format.h>
 #include <utf8.h>
@@ -10,6 +11,22 @@ namespace scoria::core {
 namespace {
 
 bool IsControl(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
+
+/// Edits (insert, delete, replace) between two words.
+int EditDistance(std::string_view a, std::string_view b) {
+  std::vector<int> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    int diagonal = row[0];
+    row[0] = static_cast<int>(i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const int replace = diagonal + (a[i - 1] != b[j - 1]);
+      diagonal = row[j];
+      row[j] = std::min({replace, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
 
 }  // namespace
 
@@ -68,6 +85,21 @@ std::string BlankXmlComments(std::string_view xml) {
     }
   }
   return out;
+}
+
+std::string DidYouMean(std::string_view word, const std::vector<std::string>& choices) {
+  constexpr std::size_t kLongestWord = 100;
+  if (word.size() > kLongestWord) return "";
+  const std::string* best = nullptr;
+  int best_distance = 1 + static_cast<int>(std::max<std::size_t>(2, word.size() / 3));
+  for (const std::string& choice : choices) {
+    const int distance = EditDistance(word, choice);
+    if (distance < best_distance) {
+      best_distance = distance;
+      best = &choice;
+    }
+  }
+  return best == nullptr ? "" : fmt::format(" (did you mean \"{}\"?)", *best);
 }
 
 }  // namespace scoria::core

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace scoria::core {
 
@@ -26,5 +27,9 @@ struct TextPlace {
 
 /// XML with its comments as spaces; every other byte stays where it was.
 [[nodiscard]] std::string BlankXmlComments(std::string_view xml);
+
+/// ` (did you mean "x"?)` for the nearest of `choices`, or nothing when none is near.
+[[nodiscard]] std::string DidYouMean(std::string_view word,
+                                     const std::vector<std::string>& choices);
 
 }  // namespace scoria::core

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "logs/format/mcap.h"
+#include "logs/format/log_source.h"
 #include "logs/row.h"
 #include "logs/row_joiner.h"
 
@@ -21,11 +21,11 @@ inline constexpr const char* kRowMetadata = "scoria_rows";
 
 /// @returns why the rows of a log cannot be read, in words, if it names another layout than
 /// kRowSchemaVersion; empty if not.
-[[nodiscard]] std::string DescribeOtherLayout(const McapReader& reader);
+[[nodiscard]] std::string DescribeOtherLayout(const LogSource& log);
 
 /// @returns which groups `joiner` left out of the log that it read to its end, who wrote them and
 /// why they are left out, in words; empty if it read all.
-[[nodiscard]] std::string DescribeRowProblems(const McapReader& reader, const RowJoiner& joiner);
+[[nodiscard]] std::string DescribeRowProblems(const LogSource& log, const RowJoiner& joiner);
 
 /// Calls on_row with every row of a log, in the order of the log. Memory does not grow with the
 /// log.

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "logs/messages/read_messages.h"
+
 namespace scoria::logs {
 namespace {
 
@@ -29,8 +31,8 @@ std::string DescribeDifference(const std::string& theirs, const std::string& our
 RowJoiner::RowJoiner(OnRow on_row) : on_row_(std::move(on_row)) {
   ForEachGroup(row_, [this]<class Group>(std::optional<Group>&) {
     decoders_[TopicOf(Group::kGroup)] = {
-        SchemaWriter::SchemaOf<RowMessage<Group>>(), [](std::span<const std::byte> data, Row& row) {
-          auto message = DecodeCdr<RowMessage<Group>>(data);
+        SchemaWriter::SchemaOf<RowMessage<Group>>(), [](const LogMessage& from, Row& row) {
+          auto message = Decode<RowMessage<Group>>(from);
           row.time_s = message.time_s;
           ForEachGroup(row, [&]<class Other>(std::optional<Other>& group) {
             if constexpr (std::is_same_v<Other, Group>) group = std::move(message.group);
@@ -39,7 +41,7 @@ RowJoiner::RowJoiner(OnRow on_row) : on_row_(std::move(on_row)) {
   });
 }
 
-bool RowJoiner::Add(const McapReader::Message& message) {
+bool RowJoiner::Add(const LogMessage& message) {
   const std::string& topic = message.channel.topic;
   const auto decoder = decoders_.find(topic);
   if (decoder == decoders_.end()) {
@@ -54,15 +56,15 @@ bool RowJoiner::Add(const McapReader::Message& message) {
     }
     return whole_row || topic.starts_with(kRowTopics);
   }
-  const std::string& theirs = message.channel.schema_text;
+  const std::string theirs = message.channel.schema ? message.channel.schema->text : "";
   if (message.channel.message_encoding != "cdr") {
     refused_.try_emplace(topic, fmt::format("its encoding is \"{}\", not \"cdr\"",
                                             message.channel.message_encoding));
   } else if (theirs != decoder->second.schema_text) {
     refused_.try_emplace(topic, DescribeDifference(theirs, decoder->second.schema_text));
   } else {
-    Begin(message.time_ns);
-    decoder->second.decode(message.data, row_);
+    Begin(message.log_time_ns);
+    decoder->second.decode(message, row_);
   }
   return true;
 }

@@ -5,10 +5,9 @@
 #include <functional>
 #include <map>
 #include <optional>
-#include <span>
 #include <string>
 
-#include "logs/format/mcap.h"
+#include "logs/format/log_source.h"
 #include "logs/row.h"
 
 namespace scoria::logs {
@@ -23,8 +22,8 @@ class RowJoiner {
 
   /// Takes a message of any topic. A group whose schema is not this version's stays absent.
   /// @returns false if it belongs to no row.
-  /// Errors: what DecodeCdr throws, if the message is damaged.
-  bool Add(const McapReader::Message& message);
+  /// Errors: DecodeError if the message is damaged.
+  bool Add(const LogMessage& message);
 
   /// Ends the last row.
   void Finish();
@@ -42,7 +41,7 @@ class RowJoiner {
  private:
   struct Decoder {
     std::string schema_text;
-    void (*decode)(std::span<const std::byte> data, Row& row);
+    void (*decode)(const LogMessage& message, Row& row);
   };
   void Begin(std::int64_t time_ns);
 

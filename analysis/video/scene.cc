@@ -13,7 +13,7 @@
 #include "analysis/video/gl_context.h"
 #include "analysis/video/meshes.h"
 #include "core/robot/kinematics.h"
-#include "core/robot/mesh.h"
+#include "core/robot_files/mesh.h"
 
 namespace scoria::analysis {
 namespace {

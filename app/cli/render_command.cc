@@ -10,7 +10,7 @@
 #include "app/cli/note.h"
 #include "app/cli/progress.h"
 #include "app/run/log_origin.h"
-#include "core/robot/mesh_records.h"
+#include "core/robot_files/mesh_records.h"
 #include "logs/read_rows.h"
 
 namespace scoria::app {

@@ -8,6 +8,7 @@
 #include "app/run/log_origin.h"
 #include "app/version.h"
 #include "core/math/so3.h"
+#include "logs/format/cdr.h"
 #include "logs/read_rows.h"
 
 namespace scoria::app {
@@ -350,7 +351,7 @@ void Recorder::OnStep(const StepRecord& r) {
   if (r.state_hash) Write(RecordedTopics()[kHash], r.time_s, msg::StateHash{r.step, *r.state_hash});
 }
 FileSink::FileSink(const std::filesystem::path& path, const Scenario& scenario,
-                   const core::RobotDescription& robot, const logs::McapMetadata& extra)
+                   const core::RobotDescription& robot, const logs::LogMetadata& extra)
     : writer_(path), params_(scenario.log) {
   writer_.AddMetadata(kScenarioMetadata, MakeLogMetadata(scenario, robot, extra));
   writer_.AddMetadata(logs::kRowMetadata, logs::MakeRowMetadata(kVersion));

@@ -12,7 +12,7 @@
 #include "app/episode/observer.h"
 #include "app/scenario/scenario.h"
 #include "controller/controller.h"
-#include "logs/format/mcap.h"
+#include "logs/format/mcap_writer.h"
 #include "logs/messages/scoria.h"
 
 namespace scoria::app {
@@ -67,7 +67,7 @@ class Recorder final : public EpisodeObserver {
 class FileSink final : public MessageSink {
  public:
   FileSink(const std::filesystem::path& path, const Scenario& scenario,
-           const core::RobotDescription& robot, const logs::McapMetadata& extra);
+           const core::RobotDescription& robot, const logs::LogMetadata& extra);
   void Write(const Topic& topic, std::int64_t time_ns, std::span<const std::byte> message) override;
   void MarkFall(std::int64_t time_ns) override;
   void Close() { writer_.Close(); }

@@ -15,6 +15,7 @@
 #include "controller/qp/sets/qp_bench.h"
 #include "controller/stand_up.h"
 #include "core/math/quantile.h"
+#include "core/robot_files/load.h"
 #include "core/stopwatch.h"
 #include "sim/actuation.h"
 #include "terrains/generator.h"

@@ -16,9 +16,11 @@
 #include "app/scenario/config_kinds.h"
 #include "controller/stand_up.h"
 #include "core/files.h"
-#include "core/robot/inspect.h"
 #include "core/robot/normalise.h"
 #include "core/robot/whole_body.h"
+#include "core/robot_files/inspect.h"
+#include "core/robot_files/load.h"
+#include "core/text.h"
 #include "terrains/generator.h"
 
 namespace scoria::app {

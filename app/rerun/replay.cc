@@ -9,7 +9,8 @@
 #include "app/episode/record.h"
 #include "app/episode/rows.h"
 #include "app/run/log_origin.h"
-#include "logs/format/cdr.h"
+#include "logs/format/open_log.h"
+#include "logs/messages/read_messages.h"
 #include "logs/read_rows.h"
 
 namespace scoria::app {
@@ -69,14 +70,14 @@ class Replay {
   Replay(const Scenario& scenario, const core::RobotDescription& robot)
       : scenario_(scenario), robot_(robot), changes_(ChangedControllers(scenario)) {}
 
-  void Take(const logs::McapReader::Message& m) {
+  void Take(const logs::LogMessage& m) {
     if (rows_.Add(m)) return;
     if (m.channel.topic == "/scoria/controller_start") {
-      Start(logs::DecodeCdr<msg::ControllerStart>(m.data));
+      Start(logs::Decode<msg::ControllerStart>(m));
     } else if (m.channel.topic == "/scoria/controller_input") {
-      Step(logs::DecodeCdr<msg::ControllerInput>(m.data));
+      Step(logs::Decode<msg::ControllerInput>(m));
     } else if (m.channel.topic == "/scoria/event") {
-      const auto event = logs::DecodeCdr<msg::Event>(m.data);
+      const auto event = logs::Decode<msg::Event>(m);
       const bool change = event.kind == "controller_change" && next_change_ < changes_.size();
       if (!change) return;
       const controller::ControllerParams& params = changes_[next_change_++];
@@ -168,14 +169,13 @@ ReplayResult ReplayLog(const std::filesystem::path& log,
                     log.string()));
   const core::RobotDescription robot = RobotOf(origin);
   const auto replay = std::make_unique<Replay>(origin.scenario, robot);
-  logs::McapReader reader(log);
-  if (const std::string other = logs::DescribeOtherLayout(reader); !other.empty())
+  const std::unique_ptr<logs::LogSource> source = logs::OpenLog(log);
+  if (const std::string other = logs::DescribeOtherLayout(*source); !other.empty())
     throw std::runtime_error(fmt::format("{}: {}", log.string(), other));
-  std::string problem = reader.ForEachMessage([&](const logs::McapReader::Message& m) {
-    replay->Take(m);
-    return true;
-  });
-  if (const std::string rows = logs::DescribeRowProblems(reader, replay->rows()); !rows.empty())
+  std::string problem =
+      logs::ProblemText(logs::ReadMessages(*source, {.order = logs::LogOrder::kStored},
+                                           [&](const logs::LogMessage& m) { replay->Take(m); }));
+  if (const std::string rows = logs::DescribeRowProblems(*source, replay->rows()); !rows.empty())
     problem += fmt::format("{}{}: {}", problem.empty() ? "" : "; ", log.string(), rows);
   return replay->Finish(problem);
 }

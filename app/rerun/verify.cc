@@ -9,6 +9,8 @@
 #include "app/episode/record.h"
 #include "app/run/log_origin.h"
 #include "core/hash.h"
+#include "logs/format/open_log.h"
+#include "logs/messages/read_messages.h"
 
 namespace scoria::app {
 namespace {
@@ -25,9 +27,9 @@ struct Logged {
 };
 
 /// Ctrl-C ended the episode here, which no re-run can know.
-bool IsInterruption(const logs::McapReader::Message& m) {
+bool IsInterruption(const logs::LogMessage& m) {
   if (m.channel.topic != "/scoria/event") return false;
-  const auto event = logs::DecodeCdr<logs::msg::Event>(m.data);
+  const auto event = logs::Decode<logs::msg::Event>(m);
   return event.kind == "end" && event.detail == core::EnumName(EpisodeEnd::kInterrupted);
 }
 
@@ -35,11 +37,12 @@ bool IsInterruption(const logs::McapReader::Message& m) {
 logs::Bytes Fetch(const std::filesystem::path& log, const std::string& topic, std::size_t index) {
   logs::Bytes bytes;
   std::size_t seen = 0;
-  logs::McapReader(log).ForEachMessage([&](const logs::McapReader::Message& m) {
-    if (m.channel.topic != topic || seen++ != index) return true;
-    bytes.assign(m.data.begin(), m.data.end());
-    return false;
-  });
+  logs::OpenLog(log)->ForEach({.topics = {{topic}}, .order = logs::LogOrder::kStored},
+                              [&](const logs::LogMessage& m) {
+                                if (seen++ != index) return true;
+                                bytes.assign(m.data.begin(), m.data.end());
+                                return false;
+                              });
   return bytes;
 }
 
@@ -51,20 +54,22 @@ class CompareSink final : public MessageSink {
         step_s_(scenario.physics.step_s),
         complete_(scenario.log.keep == KeepLog::kFull) {
     std::optional<std::int64_t> interrupted_ns;
-    problem_ = logs::McapReader(log).ForEachMessage([&](const logs::McapReader::Message& m) {
+    const std::unique_ptr<logs::LogSource> source = logs::OpenLog(log);
+    const auto take = [&](const logs::LogMessage& m) {
       if (IsInterruption(m)) {
-        interrupted_ns = m.time_ns;
-        return true;
+        interrupted_ns = m.log_time_ns;
+        return;
       }
-      logged_[m.channel.topic].push_back({m.time_ns, HashBytes(m.data)});
-      last_ns_ = std::max(last_ns_, m.time_ns);
-      return true;
-    });
-    whole_ = problem_.empty() && !interrupted_ns;
+      logged_[m.channel.topic].push_back({m.log_time_ns, HashBytes(m.data)});
+      last_ns_ = std::max(last_ns_, m.log_time_ns);
+    };
+    problems_ = logs::ReadMessages(*source, {.order = logs::LogOrder::kStored}, take);
+    if (IsDamaged()) complete_ = false;
+    whole_ = !logs::LosesData(problems_) && !interrupted_ns;
     // The step that an interruption names was not run. A cut log may end in the middle of a step:
     // the last step's messages are not all there.
     if (interrupted_ns) last_ns_ = *interrupted_ns - 1;
-    if (!problem_.empty()) --last_ns_;
+    if (logs::LosesData(problems_)) --last_ns_;
   }
 
   void Write(const Topic& topic, std::int64_t time_ns,
@@ -73,7 +78,7 @@ class CompareSink final : public MessageSink {
     const std::vector<Logged>& kept = logged_[topic.name];
     std::size_t& next = next_[topic.name];
     if (next >= kept.size() || kept[next].time_ns > time_ns) {
-      // A log that keeps everything lacks nothing, up to where it was cut.
+      // A log that keeps everything lacks nothing, up to where it was cut, unless it is damaged.
       if (complete_)
         difference_ = fmt::format("{}: {}: the re-run makes a message that the log lacks",
                                   At(time_ns), topic.name);
@@ -105,21 +110,29 @@ class CompareSink final : public MessageSink {
                                   At(found->second[next].time_ns), topic.name);
       }
     }
-    const bool before_first_step = problem_.empty() && !whole_ && last_ns_ < 0;  // nothing to prove
+    const bool before_first_step =  // nothing to prove
+        !logs::LosesData(problems_) && !whole_ && last_ns_ < 0;
     if (compared_ == 0 && difference_.empty() && !before_first_step)
       difference_ = whole_ ? "the log has no message that could be compared"
                            : "the log ends before a whole step that could be compared";
-    const bool only_cut = problem_.empty() || problem_.find("cut off at byte") != std::string::npos;
-    if (!only_cut && difference_.empty()) difference_ = problem_;
+    const std::string problem = logs::ProblemText(problems_);
+    if (IsDamaged() && difference_.empty()) difference_ = problem;
     return {difference_.empty(),
             compared_,
             whole_,
             1e-9 * static_cast<double>(std::max<std::int64_t>(last_ns_, 0)),
             difference_,
-            problem_};
+            problem};
   }
 
  private:
+  /// More than cut off.
+  [[nodiscard]] bool IsDamaged() const {
+    return std::any_of(problems_.begin(), problems_.end(), [](const logs::LogProblem& p) {
+      return p.kind == logs::LogProblem::Kind::kLost;
+    });
+  }
+
   [[nodiscard]] std::string At(std::int64_t time_ns) const {
     const double time_s = static_cast<double>(time_ns) * 1e-9;
     return fmt::format("step {} ({:.3f} s)", std::lround(time_s / step_s_), time_s);
@@ -150,7 +163,8 @@ class CompareSink final : public MessageSink {
   bool whole_ = true;          // neither cut off nor interrupted
   std::int64_t last_ns_ = -1;  // of what is compared
   std::uint64_t compared_ = 0;
-  std::string difference_, problem_;
+  std::string difference_;
+  std::vector<logs::LogProblem> problems_;
 };
 
 }  // namespace

@@ -2,7 +2,8 @@
 #include "app/run/inputs.h"
 
 #include "core/files.h"
-#include "core/robot/mesh_records.h"
+#include "core/robot_files/load.h"
+#include "core/robot_files/mesh_records.h"
 
 namespace scoria::app {
 

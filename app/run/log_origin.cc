@@ -11,7 +11,9 @@
 
 #include "core/files.h"
 #include "core/hash.h"
-#include "core/robot/mesh_records.h"
+#include "core/robot_files/load.h"
+#include "core/robot_files/mesh_records.h"
+#include "logs/format/open_log.h"
 #include "terrains/generator.h"
 
 namespace scoria::app {
@@ -33,7 +35,7 @@ std::uint64_t FromHex(const std::string& text) {
 }
 
 /// Of all entries but itself.
-std::string Checksum(const logs::McapMetadata& metadata) {
+std::string Checksum(const logs::LogMetadata& metadata) {
   core::Hash64 hash;
   for (const auto& [key, value] : metadata) {
     if (key != "checksum")
@@ -66,17 +68,17 @@ core::MeshRecords MeshesFromJson(const json& all) {
 }
 
 /// The scenario's metadata record.
-logs::McapMetadata ReadScenarioRecord(const fs::path& log) {
-  const logs::McapReader reader(log);
-  const auto all = reader.ReadMetadata();
+logs::LogMetadata ReadScenarioRecord(const fs::path& log) {
+  const std::unique_ptr<logs::LogSource> source = logs::OpenLog(log);
+  const auto& all = source->contents().metadata;
   const auto found = all.find(kScenarioMetadata);
   if (found == all.end() || !found->second.contains("scenario") ||
       !found->second.contains("urdf")) {
     throw std::runtime_error(fmt::format(
         "{}: {}", log.string(),
-        reader.IsWhole()
-            ? "holds no scenario; only logs that scoria wrote can be re-run or drawn"
-            : "is cut off or damaged before its scenario; nothing of it can be re-run or drawn"));
+        logs::LosesData(source->problems())
+            ? "is cut off or damaged before its scenario; nothing of it can be re-run or drawn"
+            : "holds no scenario; only logs that scoria wrote can be re-run or drawn"));
   }
   const auto checksum = found->second.find("checksum");  // none in logs of version 0.1.0
   if (checksum != found->second.end() && checksum->second != Checksum(found->second))
@@ -131,7 +133,7 @@ void CheckHeightmapFile(const LogOrigin& origin) {
 }  // namespace
 
 LogOrigin ReadLogOrigin(const fs::path& log, const std::vector<std::string>& overrides) {
-  const logs::McapMetadata record = ReadScenarioRecord(log);
+  const logs::LogMetadata record = ReadScenarioRecord(log);
   core::ConfigNode node = core::ParseConfig(record.at("scenario"), log.string());
   for (const std::string& assignment : overrides) core::ApplyOverride(node, assignment);
   LogOrigin origin{log, core::ReadConfig<Scenario>(node), record.at("urdf"), {}, {}};
@@ -153,7 +155,7 @@ core::RobotDescription RobotOf(const LogOrigin& origin) {
 terrains::Heightfield GroundOf(const LogOrigin& origin) {
   terrains::TerrainParams params = origin.scenario.terrain;
   if (!origin.heightmap_hash) return terrains::GenerateTerrain(params, origin.scenario.seed, 0);
-  const auto packed = logs::McapReader(origin.log).ReadAttachment(kHeightmapAttachment);
+  const auto packed = logs::OpenLog(origin.log)->ReadAttachment(kHeightmapAttachment);
   if (!packed) {
     CheckHeightmapFile(origin);
     return terrains::GenerateTerrain(params, origin.scenario.seed, 0);
@@ -168,9 +170,9 @@ terrains::Heightfield GroundOf(const LogOrigin& origin) {
   return terrains::GenerateTerrain(params, origin.scenario.seed, 0);
 }
 
-logs::McapMetadata MakeLogMetadata(const Scenario& scenario, const core::RobotDescription& robot,
-                                   const logs::McapMetadata& extra) {
-  logs::McapMetadata metadata = extra;
+logs::LogMetadata MakeLogMetadata(const Scenario& scenario, const core::RobotDescription& robot,
+                                  const logs::LogMetadata& extra) {
+  logs::LogMetadata metadata = extra;
   metadata["scenario"] = EffectiveYaml(scenario);
   metadata["urdf"] = robot.urdf_text;
   metadata["meshes"] =
@@ -184,14 +186,14 @@ logs::McapMetadata MakeLogMetadata(const Scenario& scenario, const core::RobotDe
   return metadata;
 }
 
-std::optional<logs::McapAttachment> PackHeightmap(const Scenario& scenario) {
+std::optional<logs::LogAttachment> PackHeightmap(const Scenario& scenario) {
   const fs::path& file = scenario.terrain.heightmap.file;
   std::error_code error;
   if (file.empty() || fs::file_size(file, error) > kLargestHeightmap) return std::nullopt;
   const std::string content = core::ReadText(file);
   constexpr int kLevel = 9;  // once per log
-  logs::McapAttachment attachment{kHeightmapAttachment, "application/zstd",
-                                  logs::Bytes(ZSTD_compressBound(content.size()))};
+  logs::LogAttachment attachment{kHeightmapAttachment, "application/zstd",
+                                 logs::Bytes(ZSTD_compressBound(content.size()))};
   const std::size_t n = ZSTD_compress(attachment.data.data(), attachment.data.size(),
                                       content.data(), content.size(), kLevel);
   if (ZSTD_isError(n) != 0 || n > kLargestPackedHeightmap) return std::nullopt;

@@ -9,7 +9,7 @@
 
 #include "app/scenario/scenario.h"
 #include "core/robot/description.h"
-#include "logs/format/mcap.h"
+#include "logs/format/log_source.h"
 #include "terrains/heightfield.h"
 
 namespace scoria::app {
@@ -46,11 +46,11 @@ struct LogOrigin {
 
 /// What ReadLogOrigin reads: scenario, URDF, meshes, the heightmap's hash, and a checksum of it all
 /// with `extra`.
-[[nodiscard]] logs::McapMetadata MakeLogMetadata(const Scenario& scenario,
-                                                 const core::RobotDescription& robot,
-                                                 const logs::McapMetadata& extra);
+[[nodiscard]] logs::LogMetadata MakeLogMetadata(const Scenario& scenario,
+                                                const core::RobotDescription& robot,
+                                                const logs::LogMetadata& extra);
 
 /// The scenario's heightmap for a log, if there is one and it is not too large.
-[[nodiscard]] std::optional<logs::McapAttachment> PackHeightmap(const Scenario& scenario);
+[[nodiscard]] std::optional<logs::LogAttachment> PackHeightmap(const Scenario& scenario);
 
 }  // namespace scoria::app

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "core/robot/inspect.h"
+#include "core/robot_files/inspect.h"
 
 namespace scoria::app {
 

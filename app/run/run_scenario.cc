@@ -18,6 +18,7 @@
 #include "app/run/walk_check.h"
 #include "app/version.h"
 #include "core/files.h"
+#include "core/robot_files/load.h"
 #include "terrains/generator.h"
 
 namespace scoria::app {
@@ -92,7 +93,7 @@ class ScenarioRun {
     if (scenario_.log.keep == KeepLog::kMetrics) return;
     file_.emplace(
         options_.folder / "log.mcap", scenario_, robot_,
-        logs::McapMetadata{{"version", kVersion}, {"terrain", analysis::JsonText(terrain_json_)}});
+        logs::LogMetadata{{"version", kVersion}, {"terrain", analysis::JsonText(terrain_json_)}});
     observers_.push_back(&recorder_.emplace(*file_, scenario_));
   }
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <variant>
 
-#include "core/config/archive.h"
+#include "core/config/field.h"
 
 namespace scoria::controller {
 

@@ -9,7 +9,7 @@
 #include "controller/estimation/contact_fusion.h"
 #include "controller/estimation/foot_sensor.h"
 #include "controller/model/momentum_observer.h"
-#include "core/config/archive.h"
+#include "core/config/field.h"
 #include "core/robot/contact.h"
 #include "core/robot/description.h"
 #include "core/robot/plans.h"

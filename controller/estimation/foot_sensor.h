@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "controller/estimation/force_match.h"
-#include "core/config/archive.h"
+#include "core/config/field.h"
 
 namespace scoria::controller {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "controller/estimation/rest_attitude.h"
-#include "core/config/archive.h"
+#include "core/config/field.h"
 
 namespace scoria::controller {
 

@@ -7,7 +7,7 @@
 
 #include "controller/estimation/inekf_estimator_params.h"
 #include "controller/estimation/linear_kf_params.h"
-#include "core/config/archive.h"
+#include "core/config/field.h"
 #include "core/robot/contact.h"
 #include "core/robot/counters.h"
 #include "core/robot/description.h"

@@ -9,7 +9,7 @@
 #include <variant>
 
 #include "controller/gait/phase_engine.h"
-#include "core/config/archive.h"
+#include "core/config/field.h"
 #include "core/robot/state.h"
 
 namespace scoria::controller {

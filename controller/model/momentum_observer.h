@@ -2,7 +2,7 @@
 #pragma once
 
 #include "controller/model/lag.h"
-#include "core/config/archive.h"
+#include "core/config/field.h"
 #include "core/robot/description.h"
 #include "core/robot/state.h"
 #include "core/robot/whole_body.h"

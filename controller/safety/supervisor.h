@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/config/archive.h"
+#include "core/config/field.h"
 #include "core/robot/state.h"
 
 namespace scoria::controller {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "core/config/archive.h"
+#include "core/config/field.h"
 
 namespace scoria::controller {
 

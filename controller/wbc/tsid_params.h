@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/config/archive.h"
+#include "core/config/field.h"
 
 namespace scoria::controller {
 

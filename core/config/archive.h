@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,27 +14,14 @@
 
 #include <fmt/format.h>
 
+#include "core/config/field.h"
 #include "core/config/node.h"
 #include "core/math/types.h"
 
-/// Configuration structs say once what they hold:
-///
-///     template <class Archive> void Serialize(Archive& a) {
-///       a.Field("period_s", period_s, {.min = 0.1, .max = 2.0, .doc = "full gait cycle"});
-///     }
-///
-/// and that drives reading (ReadConfig), writing (WriteConfig) and documentation (DescribeConfig).
-/// Supported: bool, int, uint64_t, double, string, path (relative to the file that names it), enum
-/// with EnumNames(), Vec3, array, vector, optional, struct with Serialize, and std::variant of
-/// structs that each have kType, chosen by the key `type`. A ConfigNode takes any value as it
-/// stands, a ConfigMap any map.
+/// Reading (ReadConfig), writing (WriteConfig) and documentation (DescribeConfig) of structs that
+/// say once what they hold (see field.h). A ConfigNode takes any value as it stands, a ConfigMap
+/// any map.
 namespace scoria::core {
-
-struct FieldRule {
-  double min = -std::numeric_limits<double>::infinity();
-  double max = std::numeric_limits<double>::infinity();
-  const char* doc = "";
-};
 
 /// What DescribeConfig tells of one field.
 struct FieldInfo {
@@ -52,20 +38,6 @@ struct FieldInfo {
 struct ConfigMap {
   ConfigNode node;
 };
-
-template <class T>
-concept NamedEnum = std::is_enum_v<T> && requires {
-  EnumNames(T{});
-};
-
-/// The name of an enum value, as configuration files and logs write it.
-template <NamedEnum T>
-[[nodiscard]] std::string_view EnumName(T value) {
-  for (const auto& [v, name] : EnumNames(T{})) {
-    if (v == value) return name;
-  }
-  return "?";
-}
 
 namespace config_detail {
 

@@ -159,22 +159,6 @@ void SetOrigin(ConfigNode& node, const Origin& origin) {
   }
 }
 
-/// Edits (insert, delete, replace) between two words.
-int EditDistance(std::string_view a, std::string_view b) {
-  std::vector<int> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    int diagonal = row[0];
-    row[0] = static_cast<int>(i);
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const int replace = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({replace, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row[b.size()];
-}
-
 bool NeedsQuotes(const std::string& s) {
   if (s.empty() || s == "~" || s == "null") return true;
   if (std::string_view("-?:,[]{}#&*!|>'\"%@` ").find(s.front()) != std::string_view::npos) {
@@ -338,21 +322,6 @@ std::string EmitYaml(const ConfigNode& node) {
   YAML::Emitter out;
   Emit(node, out);
   return std::string(out.c_str()) + "\n";
-}
-
-std::string DidYouMean(std::string_view word, const std::vector<std::string>& choices) {
-  constexpr std::size_t kLongestWord = 100;
-  if (word.size() > kLongestWord) return "";
-  const std::string* best = nullptr;
-  int best_distance = 1 + static_cast<int>(std::max<std::size_t>(2, word.size() / 3));
-  for (const std::string& choice : choices) {
-    const int distance = EditDistance(word, choice);
-    if (distance < best_distance) {
-      best_distance = distance;
-      best = &choice;
-    }
-  }
-  return best == nullptr ? "" : fmt::format(" (did you mean \"{}\"?)", *best);
 }
 
 }  // namespace scoria::core

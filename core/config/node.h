@@ -75,8 +75,4 @@ void SetAt(ConfigNode& root, const std::string& key_path, ConfigNode value);
 /// YAML text that parses to an equal tree.
 [[nodiscard]] std::string EmitYaml(const ConfigNode& node);
 
-/// ` (did you mean "x"?)` for the nearest of `choices`, or nothing when none is near.
-[[nodiscard]] std::string DidYouMean(std::string_view word,
-                                     const std::vector<std::string>& choices);
-
 }  // namespace scoria::core

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "core/config/archive.h"
+#include "core/config/field.h"
 #include "core/robot/legs.h"
-#include "core/robot/mesh.h"
+#include "core/robot/mesh_bounds.h"
 #include "core/robot/payload_body.h"
 
 namespace scoria::core {
@@ -140,6 +140,11 @@ struct Body : SpatialInertia {
   std::string name;
 };
 
+/// Fixes a link with that inertia in L to a body; one without mass changes nothing. As Join, with
+/// the terms of the link summed first: logs are verified bit for bit, and every robot's inertia is
+/// the sum in this order.
+void MergeInertia(Body& body, const SpatialInertia& link);
+
 /// A revolute joint in the house convention: HAA about +x, HFE and KFE about +y of the trunk when
 /// q = 0, where the leg hangs straight down. The URDF's angle is urdf_sign q + urdf_zero_rad.
 struct JointDescription {
@@ -208,19 +213,5 @@ inline constexpr int kNumBodies = 1 + kNumJoints;
 [[nodiscard]] constexpr Joint JointOf(int body) noexcept {
   return static_cast<Joint>((body - 1) % kJointsPerLeg);
 }
-
-/// Loads the URDF that `config` names, and refuses a robot that could not walk.
-/// Errors: ConfigError that names the file and what is missing or wrong.
-[[nodiscard]] RobotDescription LoadRobot(const RobotConfig& config);
-
-/// As LoadRobot, but lets joints without effort through, for inspection.
-[[nodiscard]] RobotDescription ReadRobot(const RobotConfig& config);
-
-/// The robot of a URDF text (a log carries it): a trunk and four legs of HAA, HFE, KFE, fixed links
-/// merged, joints in the house convention.
-/// @param meshes  where the log carries them too; files that are not among them are read.
-/// Errors: as ReadRobot.
-[[nodiscard]] RobotDescription MakeRobot(const RobotConfig& config, const std::string& urdf_text,
-                                         const MeshRecords& meshes = {});
 
 }  // namespace scoria::core

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/config/archive.h"
+#include "core/config/field.h"
 #include "core/math/spatial_inertia.h"
 
 namespace scoria::core {

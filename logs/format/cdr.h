@@ -18,6 +18,8 @@
 #include <fastcdr/exceptions/NotEnoughMemoryException.h>
 #include <fmt/format.h>
 
+#include "logs/format/bytes.h"
+
 /// Messages say once what they hold:
 ///
 ///     template <class Archive> void Serialize(Archive& a) { a("mass", mass); a("com", com); }
@@ -27,8 +29,6 @@
 /// for comparisons. ROS has no optional fields: std::optional<T> is a bounded sequence, `T[<=1]`,
 /// and std::optional<std::array<T, N>> one of N items or none, `T[<=N]`.
 namespace scoria::logs {
-
-using Bytes = std::vector<std::byte>;
 
 namespace cdr_detail {
 

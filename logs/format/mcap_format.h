@@ -1,18 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
 #include <zlib.h>
 
-#include "logs/format/cdr.h"
-
 /// What writer and reader of MCAP share; nobody else needs it.
 namespace scoria::logs::mcap_format {
 
 inline constexpr std::array<unsigned char, 8> kMagic = {0x89, 'M', 'C', 'A', 'P', 0x30, '\r', '\n'};
+
+inline bool StartsWithMagic(std::span<const std::byte> bytes) {
+  return bytes.size() >= kMagic.size() &&
+         std::ranges::equal(bytes.first(kMagic.size()), std::as_bytes(std::span(kMagic)));
+}
+inline bool EndsWithMagic(std::span<const std::byte> bytes) {
+  return bytes.size() >= kMagic.size() && StartsWithMagic(bytes.last(kMagic.size()));
+}
+
 enum Op : std::uint8_t {
   kHeader = 0x01,
   kFooter = 0x02,

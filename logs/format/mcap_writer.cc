@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "logs/format/mcap_writer.h"
+
 #include <algorithm>
 #include <cerrno>
 #include <stdexcept>
 
+#include <fmt/format.h>
 #include <zstd.h>
 
 #include "core/files.h"
-#include "logs/format/mcap.h"
 #include "logs/format/mcap_format.h"
 
 namespace scoria::logs {
@@ -17,7 +19,7 @@ using namespace mcap_format;  // this file writes the format
 constexpr int kZstdLevel = 1;  // logs of noisy floats: higher levels cost time and gain nothing
 
 /// What rosbag2 wants to know of a channel: reliable, keep the last message.
-const McapMetadata kChannelMetadata = {
+const LogMetadata kChannelMetadata = {
     {"offered_qos_profiles", "- history: 1\n  depth: 1\n  reliability: 1\n  durability: 2\n"}};
 
 /// Appends little-endian values to a byte vector.
@@ -39,7 +41,7 @@ class Put {
     Int(static_cast<std::uint32_t>(text.size()));
     return Raw(std::as_bytes(std::span(text)));
   }
-  Put& Map(const McapMetadata& map) {
+  Put& Map(const LogMetadata& map) {
     Bytes body;
     for (const auto& [key, value] : map) Put(body).String(key).String(value);
     Int(static_cast<std::uint32_t>(body.size()));
@@ -88,8 +90,9 @@ void McapWriter::Emit(const Bytes& bytes) {
 
 std::uint16_t McapWriter::AddChannel(const std::string& topic, const std::string& type_name,
                                      const std::string& schema_text) {
-  auto schema = std::find_if(schemas_.begin(), schemas_.end(),
-                             [&](const Schema& s) { return s.name == type_name; });
+  auto schema = std::find_if(schemas_.begin(), schemas_.end(), [&](const Schema& s) {
+    return s.name == type_name && s.text == schema_text;
+  });
   if (schema == schemas_.end()) {
     schemas_.push_back({type_name, schema_text, false});
     schema = schemas_.end() - 1;
@@ -99,26 +102,38 @@ std::uint16_t McapWriter::AddChannel(const std::string& topic, const std::string
   return static_cast<std::uint16_t>(channels_.size() - 1);
 }
 
+void McapWriter::AppendSchema(Bytes& out, std::size_t index) const {
+  const Schema& schema = schemas_[index];
+  Bytes body;
+  Put(body)
+      .Int(static_cast<std::uint16_t>(index + 1))
+      .String(schema.name)
+      .String("ros2msg")
+      .String(schema.text);
+  AppendRecord(out, kSchema, body);
+}
+
+void McapWriter::AppendChannel(Bytes& out, std::size_t index) const {
+  const Channel& channel = channels_[index];
+  Bytes body;
+  Put(body)
+      .Int(static_cast<std::uint16_t>(index))
+      .Int(channel.schema)
+      .String(channel.topic)
+      .String("cdr")
+      .Map(kChannelMetadata);
+  AppendRecord(out, kChannel, body);
+}
+
 void McapWriter::Write(std::uint16_t number, std::int64_t time_ns,
                        std::span<const std::byte> message) {
   Channel& channel = channels_.at(number);
   const auto time = static_cast<std::uint64_t>(time_ns);
   if (!channel.announced) {
     Schema& schema = schemas_[channel.schema - 1u];
-    if (!schema.announced) {
-      Bytes body;
-      Put(body).Int(channel.schema).String(schema.name).String("ros2msg").String(schema.text);
-      AppendRecord(chunk_, kSchema, body);
-      schema.announced = true;
-    }
-    Bytes body;
-    Put(body)
-        .Int(number)
-        .Int(channel.schema)
-        .String(channel.topic)
-        .String("cdr")
-        .Map(kChannelMetadata);
-    AppendRecord(chunk_, kChannel, body);
+    if (!schema.announced) AppendSchema(chunk_, channel.schema - 1u);
+    schema.announced = true;
+    AppendChannel(chunk_, number);
     channel.announced = true;
   }
   if (chunk_messages_.empty()) chunk_first_ns_ = chunk_last_ns_ = time;
@@ -176,7 +191,7 @@ void McapWriter::FlushChunk() {
   Emit(bytes);
 }
 
-void McapWriter::AddMetadata(const std::string& name, const McapMetadata& metadata) {
+void McapWriter::AddMetadata(const std::string& name, const LogMetadata& metadata) {
   FlushChunk();
   Bytes body, bytes;
   Put(body).String(name).Map(metadata);
@@ -185,7 +200,7 @@ void McapWriter::AddMetadata(const std::string& name, const McapMetadata& metada
   Emit(bytes);
 }
 
-void McapWriter::AddAttachment(const McapAttachment& attachment) {
+void McapWriter::AddAttachment(const LogAttachment& attachment) {
   FlushChunk();
   Bytes body, bytes;
   Put(body).Int(std::uint64_t{0}).Int(std::uint64_t{0});  // log and creation time
@@ -198,97 +213,102 @@ void McapWriter::AddAttachment(const McapAttachment& attachment) {
   Emit(bytes);
 }
 
+Bytes McapWriter::SchemaRecords() const {
+  Bytes out;
+  for (std::size_t i = 0; i < schemas_.size(); ++i) {
+    if (schemas_[i].announced) AppendSchema(out, i);
+  }
+  return out;
+}
+
+Bytes McapWriter::ChannelRecords() const {
+  Bytes out;
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    if (channels_[i].announced) AppendChannel(out, i);
+  }
+  return out;
+}
+
+Bytes McapWriter::StatisticsRecord() const {
+  const auto is_announced = [](const auto& item) { return item.announced; };
+  Bytes counts, body, out;
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    if (!channels_[i].announced) continue;
+    Put(counts).Int(static_cast<std::uint16_t>(i)).Int(channels_[i].count);
+  }
+  Put(body)
+      .Int(total_)
+      .Int(
+          static_cast<std::uint16_t>(std::count_if(schemas_.begin(), schemas_.end(), is_announced)))
+      .Int(static_cast<std::uint32_t>(
+          std::count_if(channels_.begin(), channels_.end(), is_announced)))
+      .Int(static_cast<std::uint32_t>(attachment_indexes_.size()))
+      .Int(static_cast<std::uint32_t>(metadata_indexes_.size()))
+      .Int(static_cast<std::uint32_t>(chunk_indexes_.size()))
+      .Int(first_ns_)
+      .Int(last_ns_)
+      .Int(static_cast<std::uint32_t>(counts.size()))
+      .Raw(counts);
+  AppendRecord(out, kStatistics, body);
+  return out;
+}
+
+Bytes McapWriter::ChunkIndexRecords() const {
+  Bytes out;
+  for (const ChunkIndex& c : chunk_indexes_) {
+    Bytes map, body;
+    for (const auto& [channel, offset] : c.index_offsets) Put(map).Int(channel).Int(offset);
+    Put(body).Int(c.first_ns).Int(c.last_ns).Int(c.offset).Int(c.length);
+    Put(body)
+        .Int(static_cast<std::uint32_t>(map.size()))
+        .Raw(map)
+        .Int(c.index_length)
+        .String("zstd");
+    Put(body).Int(c.compressed).Int(c.uncompressed);
+    AppendRecord(out, kChunkIndex, body);
+  }
+  return out;
+}
+
+Bytes McapWriter::AttachmentIndexRecords() const {
+  Bytes out;
+  for (const AttachmentIndex& a : attachment_indexes_) {
+    Bytes body;
+    Put(body).Int(a.offset).Int(a.length).Int(std::uint64_t{0}).Int(std::uint64_t{0});
+    Put(body).Int(a.data_size).String(a.name).String(a.media_type);
+    AppendRecord(out, kAttachmentIndex, body);
+  }
+  return out;
+}
+
+Bytes McapWriter::MetadataIndexRecords() const {
+  Bytes out;
+  for (const MetadataIndex& m : metadata_indexes_) {
+    Bytes body;
+    Put(body).Int(m.offset).Int(m.length).String(m.name);
+    AppendRecord(out, kMetadataIndex, body);
+  }
+  return out;
+}
+
 void McapWriter::WriteSummary() {
   const std::uint64_t summary_start = offset_;
-  const auto is_announced = [](const auto& item) { return item.announced; };
   Bytes summary, offsets;
-  const auto group = [&](Op op, const auto& write_records) {
-    const std::size_t before = summary.size();
-    write_records();
-    if (summary.size() == before) return;
+  for (const auto& [op, records] : {std::pair{kSchema, SchemaRecords()},
+                                    {kChannel, ChannelRecords()},
+                                    {kStatistics, StatisticsRecord()},
+                                    {kChunkIndex, ChunkIndexRecords()},
+                                    {kAttachmentIndex, AttachmentIndexRecords()},
+                                    {kMetadataIndex, MetadataIndexRecords()}}) {
+    if (records.empty()) continue;
     Bytes body;
     Put(body)
         .Int(static_cast<std::uint8_t>(op))
-        .Int(summary_start + before)
-        .Int(static_cast<std::uint64_t>(summary.size() - before));
+        .Int(summary_start + summary.size())
+        .Int(static_cast<std::uint64_t>(records.size()));
     AppendRecord(offsets, kSummaryOffset, body);
-  };
-  group(kSchema, [&] {
-    for (std::size_t i = 0; i < schemas_.size(); ++i) {
-      if (!schemas_[i].announced) continue;
-      Bytes body;
-      Put(body)
-          .Int(static_cast<std::uint16_t>(i + 1))
-          .String(schemas_[i].name)
-          .String("ros2msg")
-          .String(schemas_[i].text);
-      AppendRecord(summary, kSchema, body);
-    }
-  });
-  group(kChannel, [&] {
-    for (std::size_t i = 0; i < channels_.size(); ++i) {
-      if (!channels_[i].announced) continue;
-      Bytes body;
-      Put(body)
-          .Int(static_cast<std::uint16_t>(i))
-          .Int(channels_[i].schema)
-          .String(channels_[i].topic)
-          .String("cdr")
-          .Map(kChannelMetadata);
-      AppendRecord(summary, kChannel, body);
-    }
-  });
-  group(kStatistics, [&] {
-    Bytes counts, body;
-    for (std::size_t i = 0; i < channels_.size(); ++i) {
-      if (!channels_[i].announced) continue;
-      Put(counts).Int(static_cast<std::uint16_t>(i)).Int(channels_[i].count);
-    }
-    Put(body)
-        .Int(total_)
-        .Int(static_cast<std::uint16_t>(
-            std::count_if(schemas_.begin(), schemas_.end(), is_announced)))
-        .Int(static_cast<std::uint32_t>(
-            std::count_if(channels_.begin(), channels_.end(), is_announced)))
-        .Int(static_cast<std::uint32_t>(attachment_indexes_.size()))
-        .Int(static_cast<std::uint32_t>(metadata_indexes_.size()))
-        .Int(static_cast<std::uint32_t>(chunk_indexes_.size()))
-        .Int(first_ns_)
-        .Int(last_ns_)
-        .Int(static_cast<std::uint32_t>(counts.size()))
-        .Raw(counts);
-    AppendRecord(summary, kStatistics, body);
-  });
-  group(kChunkIndex, [&] {
-    for (const ChunkIndex& c : chunk_indexes_) {
-      Bytes map, body;
-      for (const auto& [channel, offset] : c.index_offsets) Put(map).Int(channel).Int(offset);
-      Put(body).Int(c.first_ns).Int(c.last_ns).Int(c.offset).Int(c.length);
-      Put(body)
-          .Int(static_cast<std::uint32_t>(map.size()))
-          .Raw(map)
-          .Int(c.index_length)
-          .String("zstd");
-      Put(body).Int(c.compressed).Int(c.uncompressed);
-      AppendRecord(summary, kChunkIndex, body);
-    }
-  });
-  group(kAttachmentIndex, [&] {
-    for (const AttachmentIndex& a : attachment_indexes_) {
-      Bytes body;
-      Put(body).Int(a.offset).Int(a.length).Int(std::uint64_t{0}).Int(std::uint64_t{0});
-      Put(body).Int(a.data_size).String(a.name).String(a.media_type);
-      AppendRecord(summary, kAttachmentIndex, body);
-    }
-  });
-  group(kMetadataIndex, [&] {
-    for (const MetadataIndex& m : metadata_indexes_) {
-      Bytes body;
-      Put(body).Int(m.offset).Int(m.length).String(m.name);
-      AppendRecord(summary, kMetadataIndex, body);
-    }
-  });
-
+    Put(summary).Raw(records);
+  }
   const std::uint64_t offsets_start = summary_start + summary.size();
   Put(summary).Raw(offsets);
   Put(summary).Int(static_cast<std::uint8_t>(kFooter)).Int(std::uint64_t{8 + 8 + 4});

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "core/config/node.h"
 #include "core/text.h"
 #include "logs/ros/names.h"
 

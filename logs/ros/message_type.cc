@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "core/config/node.h"
+#include "core/text.h"
 
 namespace scoria::logs {
 namespace {

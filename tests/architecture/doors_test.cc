@@ -130,6 +130,17 @@ TEST(Doors, StagesOfTheControllerHaveRulesOfTheirOwn) {
   }
 }
 
+/// Structs that say what they hold know no reader: configs and robots come to them as values.
+TEST(Doors, ControllerAndValuesOfCoreKnowNoReaderOfFiles) {
+  const Strings readers = {"core/config/", "core/robot_files/"};
+  for (const Include& i : AllIncludes()) {
+    const bool is_bound = StartsWithAny(i.file, {"core/", "controller/"});
+    if (!is_bound || StartsWithAny(i.file, readers)) continue;
+    EXPECT_TRUE(!StartsWithAny(i.target, readers) || i.target == "core/config/field.h")
+        << i.file << " includes " << i.target;
+  }
+}
+
 TEST(Doors, NoTwoFoldersIncludeEachOther) {
   const std::vector<FolderRule> rules = FolderRules();
   for (const FolderRule& a : rules) {

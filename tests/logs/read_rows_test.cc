@@ -5,7 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "logs/format/mcap.h"
+#include "logs/format/cdr.h"
+#include "logs/format/mcap_writer.h"
 #include "logs/messages/scoria.h"
 #include "tests/support/robots.h"
 #include "tests/support/rows.h"
@@ -21,7 +22,7 @@ class RowLog {
   explicit RowLog(const fs::path& path) : writer_(path) {}
 
   void AddRowMetadata() { writer_.AddMetadata(kRowMetadata, MakeRowMetadata("9.9.9")); }
-  void AddMetadata(const std::string& name, const McapMetadata& metadata) {
+  void AddMetadata(const std::string& name, const LogMetadata& metadata) {
     writer_.AddMetadata(name, metadata);
   }
   /// @param schema  in place of the group's own.

@@ -6,6 +6,8 @@
 #include <sstream>
 #include <string>
 
+#include "core/robot_files/load.h"
+
 namespace scoria::test {
 namespace {
 

@@ -3,24 +3,24 @@
 
 #include <map>
 
-#include "logs/format/mcap.h"
+#include "logs/format/mcap_writer.h"
+#include "logs/format/open_log.h"
 #include "logs/row.h"
 
 namespace scoria::test {
 
 void CopyLog(const std::filesystem::path& from, const std::filesystem::path& to,
              const std::function<bool(const std::string& topic)>& keep) {
-  logs::McapReader reader(from);
+  const std::unique_ptr<logs::LogSource> log = logs::OpenLog(from);
   logs::McapWriter writer(to);
-  for (const auto& [name, metadata] : reader.ReadMetadata()) writer.AddMetadata(name, metadata);
+  for (const auto& [name, metadata] : log->contents().metadata) writer.AddMetadata(name, metadata);
   std::map<std::string, std::uint16_t> channels;
-  (void)reader.ForEachMessage([&](const logs::McapReader::Message& m) {
-    if (!keep(m.channel.topic)) return true;
+  log->ForEach({.order = logs::LogOrder::kStored}, [&](const logs::LogMessage& m) {
+    if (!keep(m.channel.topic)) return;
     if (!channels.contains(m.channel.topic))
       channels[m.channel.topic] =
-          writer.AddChannel(m.channel.topic, m.channel.type_name, m.channel.schema_text);
-    writer.Write(channels[m.channel.topic], m.time_ns, m.data);
-    return true;
+          writer.AddChannel(m.channel.topic, m.channel.type_name, m.channel.schema->text);
+    writer.Write(channels[m.channel.topic], m.log_time_ns, m.data);
   });
 }
 

@@ -3,6 +3,8 @@
 
 #include <cstdio>
 
+#include <fmt/format.h>
+
 #include "tests/support/robots.h"
 
 namespace scoria::test {

@@ -7,7 +7,9 @@
 #include <unistd.h>
 
 #include "controller/stand_up.h"
+#include "core/config/archive.h"
 #include "core/math/so3.h"
+#include "core/robot_files/load.h"
 
 namespace scoria::test {
 

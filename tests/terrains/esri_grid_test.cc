@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/config/archive.h"
 #include "core/files.h"
 #include "terrains/heightmap.h"
 #include "terrains/resample.h"

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <png.h>
 
+#include "core/config/archive.h"
 #include "core/files.h"
 #include "terrains/generator.h"
 #include "tests/support/robots.h"

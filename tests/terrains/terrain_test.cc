@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/config/archive.h"
 #include "core/rng.h"
 #include "terrains/generator.h"
 #include "terrains/relief.h"

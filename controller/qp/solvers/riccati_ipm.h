@@ -4,7 +4,7 @@
 #include "controller/qp/solvers/dense_regulator.h"
 #include "controller/qp/solvers/ocp_solver.h"
 #include "controller/qp/solvers/wrench_regulator.h"
-#include "core/config/archive.h"
+#include "core/config/field.h"
 
 namespace scoria::controller {
 

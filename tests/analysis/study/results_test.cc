@@ -73,7 +73,7 @@ TEST(Results, BrokenSingleRunIsAReportOfACrash) {
   core::WriteText(folder.path() / "log.mcap", "no log");
   const std::string html = core::ReadText(WriteReport(folder.path()));
   EXPECT_NE(html.find("<td>crashed</td>"), std::string::npos);
-  EXPECT_NE(html.find("log.mcap: not an MCAP file"), std::string::npos);
+  EXPECT_NE(html.find("log.mcap: is not a log that scoria reads"), std::string::npos);
 }
 
 /// A result that a report draws.

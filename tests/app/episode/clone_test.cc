@@ -8,6 +8,7 @@
 
 #include "app/episode/episode.h"
 #include "core/rng.h"
+#include "core/robot_files/load.h"
 #include "terrains/generator.h"
 #include "tests/support/robots.h"
 #include "tests/support/scenarios.h"

@@ -12,6 +12,10 @@
 #include "app/run/log_origin.h"
 #include "app/run/run_scenario.h"
 #include "core/files.h"
+#include "core/robot_files/load.h"
+#include "logs/format/cdr.h"
+#include "logs/format/mcap_writer.h"
+#include "logs/format/open_log.h"
 #include "logs/messages/scoria.h"
 #include "terrains/generator.h"
 #include "tests/support/robots.h"
@@ -125,22 +129,21 @@ TEST(Verify, ProvesALogAndNamesTheFirstDifference) {
   // The same log with one number of one message changed.
   {
     logs::McapWriter writer(altered);
-    writer.AddMetadata(kScenarioMetadata,
-                       logs::McapReader(log).ReadMetadata().at(kScenarioMetadata));
+    const std::unique_ptr<logs::LogSource> source = logs::OpenLog(log);
+    writer.AddMetadata(kScenarioMetadata, source->contents().metadata.at(kScenarioMetadata));
     std::map<std::string, std::uint16_t> channels;
-    logs::McapReader(log).ForEachMessage([&](const logs::McapReader::Message& m) {
+    source->ForEach({}, [&](const logs::LogMessage& m) {
       if (!channels.contains(m.channel.topic)) {
         channels[m.channel.topic] =
-            writer.AddChannel(m.channel.topic, m.channel.type_name, m.channel.schema_text);
+            writer.AddChannel(m.channel.topic, m.channel.type_name, m.channel.schema->text);
       }
       logs::Bytes bytes(m.data.begin(), m.data.end());
-      if (m.channel.topic == "/joint_states" && m.time_ns == 1'500'000'000) {
+      if (m.channel.topic == "/joint_states" && m.log_time_ns == 1'500'000'000) {
         auto joints = logs::DecodeCdr<logs::msg::JointState>(bytes);
         joints.velocity[7] += 1e-9;
         logs::EncodeCdr(joints, bytes);
       }
-      writer.Write(channels[m.channel.topic], m.time_ns, bytes);
-      return true;
+      writer.Write(channels[m.channel.topic], m.log_time_ns, bytes);
     });
   }
   const VerifyResult bad = VerifyLog(altered);

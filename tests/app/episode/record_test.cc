@@ -8,6 +8,8 @@
 
 #include "app/episode/function_observer.h"
 #include "app/episode/run_episode.h"
+#include "core/robot_files/load.h"
+#include "logs/format/cdr.h"
 #include "logs/read_rows.h"
 #include "terrains/generator.h"
 #include "tests/support/robots.h"

@@ -10,6 +10,7 @@
 #include "app/episode/function_observer.h"
 #include "app/episode/run_episode.h"
 #include "core/rng.h"
+#include "core/robot_files/load.h"
 #include "terrains/generator.h"
 #include "tests/support/robots.h"
 #include "tests/support/scenarios.h"

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdio>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 

@@ -9,7 +9,9 @@
 #include "app/rerun/verify.h"
 #include "app/run/run_scenario.h"
 #include "core/files.h"
-#include "core/robot/mesh_records.h"
+#include "core/robot_files/mesh_records.h"
+#include "logs/format/mcap_writer.h"
+#include "logs/format/open_log.h"
 #include "tests/support/program.h"
 #include "tests/support/robots.h"
 #include "tests/support/scenarios.h"
@@ -46,21 +48,22 @@ class StandAloneLog : public testing::Test {
   }
 
   /// Rewrites the log with other metadata, or without its attachments.
-  void Rewrite(const std::function<void(logs::McapMetadata&)>& change, bool attachments) const {
+  void Rewrite(const std::function<void(logs::LogMetadata&)>& change, bool attachments) const {
     const fs::path old = log_.string() + ".old";
     fs::rename(log_, old);
     logs::McapWriter writer(log_);
-    logs::McapMetadata metadata = logs::McapReader(old).ReadMetadata().at(kScenarioMetadata);
+    const std::unique_ptr<logs::LogSource> source = logs::OpenLog(old);
+    logs::LogMetadata metadata = source->contents().metadata.at(kScenarioMetadata);
     change(metadata);
     writer.AddMetadata(kScenarioMetadata, metadata);
-    const auto heightmap = logs::McapReader(old).ReadAttachment("heightmap.zst");
+    const auto heightmap = source->ReadAttachment("heightmap.zst");
     if (attachments && heightmap) writer.AddAttachment(*heightmap);
     std::map<std::string, std::uint16_t> channels;
-    logs::McapReader(old).ForEachMessage([&](const logs::McapReader::Message& m) {
-      const auto& [topic, type, schema, encoding] = m.channel;
-      if (!channels.contains(topic)) channels[topic] = writer.AddChannel(topic, type, schema);
-      writer.Write(channels[topic], m.time_ns, m.data);
-      return true;
+    source->ForEach({}, [&](const logs::LogMessage& m) {
+      const std::string& topic = m.channel.topic;
+      if (!channels.contains(topic))
+        channels[topic] = writer.AddChannel(topic, m.channel.type_name, m.channel.schema->text);
+      writer.Write(channels[topic], m.log_time_ns, m.data);
     });
   }
 
@@ -127,7 +130,7 @@ TEST_F(StandAloneLog, BoxOfALostMeshIsTheMeshsOwn) {
 
 TEST_F(StandAloneLog, HashAloneRefusesAnotherGround) {
   Walk();
-  Rewrite([](logs::McapMetadata&) {}, false);
+  Rewrite([](logs::LogMetadata&) {}, false);
   EXPECT_EQ(GroundError(), "none") << "the file is there as it was";
   WriteGround(0.3);
   EXPECT_EQ(GroundError(),
@@ -141,7 +144,7 @@ TEST_F(StandAloneLog, HashAloneRefusesAnotherGround) {
 TEST_F(StandAloneLog, OlderLogsStillRead) {
   Walk();
   Rewrite(
-      [](logs::McapMetadata& metadata) {
+      [](logs::LogMetadata& metadata) {
         for (const char* key : {"meshes", "heightmap_hash", "checksum"}) metadata.erase(key);
       },
       false);
@@ -151,8 +154,7 @@ TEST_F(StandAloneLog, OlderLogsStillRead) {
 
 TEST_F(StandAloneLog, DamagedRecordIsRefused) {
   Walk();
-  Rewrite([](logs::McapMetadata& metadata) { metadata["scenario"] += "\nduration_s: 1e6\n"; },
-          true);
+  Rewrite([](logs::LogMetadata& metadata) { metadata["scenario"] += "\nduration_s: 1e6\n"; }, true);
   EXPECT_EQ(GroundError(), log_.string() + ": the record of its scenario is damaged");
 }
 

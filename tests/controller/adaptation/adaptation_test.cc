@@ -15,6 +15,7 @@
 #include "controller/adaptation/kf_plus.h"
 #include "controller/adaptation/model_adapter.h"
 #include "controller/adaptation/rls.h"
+#include "core/config/archive.h"
 #include "core/math/so3.h"
 #include "core/rng.h"
 #include "tests/support/allocation_guard.h"

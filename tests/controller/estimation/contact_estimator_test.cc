@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/config/archive.h"
 #include "core/rng.h"
 #include "core/robot/whole_body.h"
 #include "tests/support/allocation_guard.h"

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "controller/safety/output_guard.h"
+#include "core/config/archive.h"
+#include "core/robot_files/load.h"
 #include "tests/support/robots.h"
 
 namespace scoria::controller {

@@ -3,13 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include "core/config/archive.h"
 #include "core/files.h"
 #include "core/math/so3.h"
-#include "core/robot/inspect.h"
 #include "core/robot/kinematics.h"
-#include "core/robot/mesh.h"
 #include "core/robot/normalise.h"
 #include "core/robot/whole_body.h"
+#include "core/robot_files/inspect.h"
+#include "core/robot_files/load.h"
+#include "core/robot_files/mesh.h"
 #include "tests/support/robots.h"
 
 namespace scoria::core {

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <sqlite3.h>
 
-#include "logs/format/mcap.h"
+#include "logs/format/open_log.h"
 #include "logs/ros/field_reader.h"
 #include "logs/ros/type_resolver.h"
 #include "logs/ros/visit_leaves.h"
@@ -88,12 +88,11 @@ Topics ReadDb3(const fs::path& file) {
 
 Topics ReadMcap(const fs::path& file) {
   Topics topics;
-  std::ignore = McapReader(file).ForEachMessage([&](const McapReader::Message& m) {
+  OpenLog(file)->ForEach({}, [&](const LogMessage& m) {
     Topic& topic = topics[m.channel.topic];
-    topic.schema = {m.channel.type_name, m.channel.message_encoding, "ros2msg",
-                    m.channel.schema_text};
+    topic.schema = {m.channel.type_name, m.channel.message_encoding, m.channel.schema->encoding,
+                    m.channel.schema->text};
     topic.messages.emplace_back(m.data.begin(), m.data.end());
-    return true;
   });
   return topics;
 }

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/config/archive.h"
 #include "core/math/so3.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/robots.h"

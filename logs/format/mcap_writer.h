@@ -5,24 +5,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <map>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "logs/format/cdr.h"
+#include "logs/format/log_source.h"
 
 namespace scoria::logs {
-
-using McapMetadata = std::map<std::string, std::string>;
-
-/// A file that travels in a log.
-struct McapAttachment {
-  std::string name, media_type;
-  Bytes data;
-};
 
 /// Writes an MCAP file of the `ros2` profile: CDR messages under ros2msg schemas in zstd chunks
 /// with index. Every chunk is flushed when it is full, so a killed process loses at most the last
@@ -35,13 +25,13 @@ class McapWriter {
   McapWriter(const McapWriter&) = delete;
   McapWriter& operator=(const McapWriter&) = delete;
 
-  /// @returns the channel's number, to write messages to. A schema is shared by channels of the
-  /// same type.
+  /// @returns the channel's number, to write messages to. Channels of the same type and schema text
+  /// share a schema.
   std::uint16_t AddChannel(const std::string& topic, const std::string& type_name,
                            const std::string& schema_text);
   void Write(std::uint16_t channel, std::int64_t time_ns, std::span<const std::byte> message);
-  void AddMetadata(const std::string& name, const McapMetadata& metadata);
-  void AddAttachment(const McapAttachment& attachment);
+  void AddMetadata(const std::string& name, const LogMetadata& metadata);
+  void AddAttachment(const LogAttachment& attachment);
 
   /// Writes the index and ends the file; called by the destructor, where errors are lost.
   void Close();
@@ -73,6 +63,14 @@ class McapWriter {
 
   void Emit(const Bytes& bytes);
   void FlushChunk();
+  void AppendSchema(Bytes& out, std::size_t index) const;
+  void AppendChannel(Bytes& out, std::size_t index) const;
+  [[nodiscard]] Bytes SchemaRecords() const;
+  [[nodiscard]] Bytes ChannelRecords() const;
+  [[nodiscard]] Bytes StatisticsRecord() const;
+  [[nodiscard]] Bytes ChunkIndexRecords() const;
+  [[nodiscard]] Bytes AttachmentIndexRecords() const;
+  [[nodiscard]] Bytes MetadataIndexRecords() const;
   void WriteSummary();
 
   std::ofstream out_;
@@ -88,42 +86,6 @@ class McapWriter {
   std::vector<MetadataIndex> metadata_indexes_;
   std::vector<AttachmentIndex> attachment_indexes_;
   bool closed_ = false;
-};
-
-/// Reads an MCAP file from front to back, whatever wrote it: chunked (zstd, lz4 or plain) or not,
-/// with or without an index, also one that ends in the middle.
-class McapReader {
- public:
-  struct ChannelInfo {
-    std::string topic, type_name, schema_text, message_encoding;
-  };
-  struct Message {
-    const ChannelInfo& channel;
-    std::int64_t time_ns;
-    std::span<const std::byte> data;
-  };
-  /// Return false to stop early.
-  using OnMessage = std::function<bool(const Message&)>;
-
-  /// Errors: std::runtime_error if the file cannot be read or is not MCAP.
-  explicit McapReader(std::filesystem::path path);
-
-  /// Reads everything. @returns what is wrong with the file, in words; empty if nothing.
-  std::string ForEachMessage(const OnMessage& on_message);
-
-  /// Metadata records by name, from the whole file; chunks are skipped unread.
-  /// Errors: std::runtime_error if a record is damaged.
-  [[nodiscard]] std::map<std::string, McapMetadata> ReadMetadata() const;
-
-  /// The first attachment of that name, if any.
-  /// Errors: std::runtime_error if it is damaged.
-  [[nodiscard]] std::optional<McapAttachment> ReadAttachment(const std::string& name) const;
-
-  /// False where the file ends before its data do.
-  [[nodiscard]] bool IsWhole() const;
-
- private:
-  std::filesystem::path path_;
 };
 
 }  // namespace scoria::logs

@@ -3,12 +3,12 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/math/types.h"
+#include "core/robot/mesh_bounds.h"
 
 namespace scoria::core {
 
@@ -21,19 +21,6 @@ struct TriangleMesh {
 /// Reads DAE, STL or OBJ. @returns nothing if the file cannot be read or holds no triangle.
 [[nodiscard]] std::optional<TriangleMesh> LoadMesh(const std::filesystem::path& file,
                                                    const Vec3& scale);
-
-struct MeshBounds {
-  Vec3 low, high;
-};
-
-/// What a log keeps of a mesh file: the box around it, without the URDF's scale, and Hash64 of its
-/// content.
-struct MeshRecord {
-  MeshBounds bounds{Vec3::Zero(), Vec3::Zero()};
-  std::uint64_t hash = 0;
-};
-/// By the name that the URDF gives the file.
-using MeshRecords = std::map<std::string, MeshRecord>;
 
 [[nodiscard]] MeshBounds Scaled(const MeshBounds& bounds, const Vec3& scale);
 [[nodiscard]] std::optional<MeshBounds> CalcMeshBounds(const std::filesystem::path& file,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/robot/urdf.h"
+#include "core/robot_files/urdf.h"
 
 #include <console_bridge/console.h>
 #include <fmt/format.h>

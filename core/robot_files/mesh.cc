@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/robot/mesh.h"
+#include "core/robot_files/mesh.h"
 
 #include <array>
 #include <charconv>

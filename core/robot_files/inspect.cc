@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/robot/inspect.h"
+#include "core/robot_files/inspect.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
+#include <fmt/format.h>
 
-#include "core/robot/mesh.h"
 #include "core/robot/normalise.h"
+#include "core/robot_files/mesh.h"
 
 namespace scoria::core {
 namespace {

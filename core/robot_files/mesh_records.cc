@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/robot/mesh_records.h"
+#include "core/robot_files/mesh_records.h"
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "core/files.h"
+#include "core/robot_files/mesh.h"
 
 namespace scoria::core {
 

@@ -2,10 +2,12 @@
 // URDFs as others write them: what is taken, held, warned of, refused with the way out.
 #include <gtest/gtest.h>
 
+#include "core/config/archive.h"
 #include "core/files.h"
-#include "core/robot/inspect.h"
-#include "core/robot/mesh.h"
 #include "core/robot/normalise.h"
+#include "core/robot_files/inspect.h"
+#include "core/robot_files/load.h"
+#include "core/robot_files/mesh.h"
 #include "tests/support/robots.h"
 
 namespace scoria::core {

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <limits>
+#include <string_view>
+#include <type_traits>
+
+/// Configuration structs say once what they hold:
+///
+///     template <class Archive> void Serialize(Archive& a) {
+///       a.Field("period_s", period_s, {.min = 0.1, .max = 2.0, .doc = "full gait cycle"});
+///     }
+///
+/// and that drives reading, writing and documentation (archive.h). This header is all that such a
+/// struct needs, so that it can be used without any reader of files.
+/// Supported: bool, int, uint64_t, double, string, path (relative to the file that names it), enum
+/// with EnumNames(), Vec3, array, vector, optional, struct with Serialize, and std::variant of
+/// structs that each have kType, chosen by the key `type`.
+namespace scoria::core {
+
+struct FieldRule {
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  const char* doc = "";
+};
+
+template <class T>
+concept NamedEnum = std::is_enum_v<T> && requires {
+  EnumNames(T{});
+};
+
+/// The name of an enum value, as configuration files and logs write it.
+template <NamedEnum T>
+[[nodiscard]] std::string_view EnumName(T value) {
+  for (const auto& [v, name] : EnumNames(T{})) {
+    if (v == value) return name;
+  }
+  return "?";
+}
+
+}  // namespace scoria::core

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/robot_files/load.h"
+
+#include <fstream>
+#include <sstream>
+
+#include <urdf_model/model.h>
+
+#include "core/config/node.h"
+#include "core/math/so3.h"
+#include "core/robot/normalise.h"
+#include "core/robot_files/urdf.h"
+#include "core/robot_files/urdf_tree.h"
+
+namespace scoria::core {
+namespace {
+
+[[noreturn]] void Fail(const RobotConfig& config, const std::string& key, const std::string& rule) {
+  throw ConfigError({config.urdf.string(), 0, 0}, key, rule);
+}
+
+/// Bodies without visuals are drawn as what they collide as.
+void DrawBareBodies(RobotDescription& robot) {
+  std::array<bool, kNumBodies> drawn{};
+  for (const Shape& shape : robot.visuals) drawn[static_cast<std::size_t>(shape.body)] = true;
+  for (const Shape& shape : robot.collisions) {
+    if (!drawn[static_cast<std::size_t>(shape.body)]) robot.visuals.push_back(shape);
+  }
+}
+
+/// Fixes a body to the trunk: its inertia, and a box to be seen. Nothing collides with it.
+void Mount(const PayloadParams& params, RobotDescription& robot) {
+  MergeInertia(robot.trunk, ToInertia(params));
+  if (params.size_m == Vec3::Zero()) return;
+  Shape box;
+  box.size_m = params.size_m;
+  box.p_LG = params.p_BP_m;
+  box.R_LG = RotationFromRpy(params.rpy_rad);
+  box.colour = {0.25f, 0.25f, 0.28f};
+  robot.visuals.push_back(box);
+}
+
+}  // namespace
+
+RobotDescription ReadRobot(const RobotConfig& config) {
+  std::ifstream in(config.urdf);
+  if (!in) Fail(config, "urdf", "cannot read the file");
+  if (std::filesystem::is_directory(config.urdf)) Fail(config, "urdf", "is a folder, not a URDF");
+  std::stringstream text;
+  text << in.rdbuf();
+  return MakeRobot(config, text.str());
+}
+
+RobotDescription LoadRobot(const RobotConfig& config) {
+  const RobotDescription robot = ReadRobot(config);
+  for (const Leg leg : kLegs) {
+    for (const JointDescription& joint : robot.legs[leg].joints) {
+      if (joint.effort_Nm <= 0.0) Fail(config, joint.name, "needs a positive effort limit");
+    }
+  }
+  return robot;
+}
+
+RobotDescription MakeRobot(const RobotConfig& config, const std::string& urdf_text,
+                           const MeshRecords& meshes) {
+  const urdf::ModelInterfaceSharedPtr model = ParseUrdf(urdf_text, config.urdf.string());
+  RobotDescription robot;
+  robot.config = config;
+  robot.urdf_text = urdf_text;
+  robot.meshes = meshes;
+  AddUrdfTree(*model, robot);
+  for (int i = 0; i < kNumBodies; ++i) {
+    if (robot.body(i).mass_kg <= 0.0) Fail(config, robot.body(i).name, "needs a positive mass");
+  }
+  DrawBareBodies(robot);
+  for (const PayloadParams& body : config.equipment) Mount(body, robot);
+  const std::string problem = NormaliseJoints(robot);
+  if (!problem.empty()) Fail(config, "legs", problem);
+  DeriveDefaults(robot);
+  return robot;
+}
+
+}  // namespace scoria::core

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "logs/format/log_source.h"
+
+namespace scoria::logs {
+
+/// Opens a log of any format that scoria reads, chosen by its content, never by its name.
+/// Errors: std::runtime_error that names the file and says what it is if it is no such log;
+/// core::FileError if it cannot be read.
+[[nodiscard]] std::unique_ptr<LogSource> OpenLog(const std::filesystem::path& path);
+
+}  // namespace scoria::logs
