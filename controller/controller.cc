@@ -7,16 +7,12 @@
 #include <utility>
 
 #include "core/math/so3.h"
+#include "core/rate.h"
 #include "core/stopwatch.h"
 
 namespace scoria::controller {
 namespace {
 
-int EverySteps(double rate_Hz, double step_s) {
-  return std::max(1, static_cast<int>(std::lround(1.0 / (rate_Hz * step_s))));
-}
-
-/// The counters of the watches are in their order.
 Count CountOf(Watch watch) noexcept {
   return static_cast<Count>(static_cast<int>(Count::kFallbackMpc) + static_cast<int>(watch));
 }
@@ -33,8 +29,8 @@ Controller::Controller(const ControllerParams& params, const core::RobotDescript
       robot_(robot),
       clock_(step_s, start.step),
       first_step_(start.step),
-      mpc_every_(EverySteps(params.rates.mpc_Hz, step_s)),
-      wbc_every_(EverySteps(params.rates.wbc_Hz, step_s)),
+      mpc_every_(core::RateDivider(params.rates.mpc_Hz, step_s).every_steps()),
+      wbc_every_(core::RateDivider(params.rates.wbc_Hz, step_s).every_steps()),
       operating_(false),
       model_(robot, gravity_mps2),
       foot_radius_m_(robot.legs[Leg::kFL].foot_radius_m),
@@ -191,7 +187,7 @@ void Controller::StepPlans(const Command& asked, const LocalGround* ground) noex
   if (ground != nullptr) {
     reference_planner_.ObserveGround(wb_, *ground);
   } else {
-    reference_planner_.ObserveFeet(wb_, out_.contact.contact, foot_radius_m_);
+    reference_planner_.ObserveFeet(wb_, out_.contact.contact, foot_radius_m_, dt_s);
   }
   reference_ =
       reference_planner_.Plan(wb_, command, params_.mpc.horizon, params_.mpc.stage_s, dt_s);

@@ -32,12 +32,8 @@ Actuation::Actuation(const core::RobotDescription& robot)
 const JointCommand& Actuation::Delayed(const JointCommand& command, double dt_s) noexcept {
   const auto delay = static_cast<std::size_t>(std::lround(robot_.config.motors.delay_s / dt_s));
   if (delay == 0) return command;
-  commands_[next_] = command;
-  const std::size_t age = std::min(delay, pending_);
-  const JointCommand& due = commands_[(next_ + kLongestDelay - age) % kLongestDelay];
-  next_ = (next_ + 1) % kLongestDelay;
-  pending_ = std::min(pending_ + 1, delay);
-  return due;
+  commands_.Next() = command;
+  return commands_.Ago(delay);
 }
 
 const LegArray<Vec3>& Actuation::Update(const JointCommand& given, const Encoders& measured,

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/math/delay_line.h"
 #include "core/robot/description.h"
 #include "core/robot/state.h"
 #include "sim/battery.h"
@@ -55,7 +56,7 @@ class Actuation {
 
   /// Forgets torques and the commands that are still on their way, after the robot was placed.
   void Reset() noexcept {
-    pending_ = 0;
+    commands_.Clear();
     motor_tau_Nm_ = ZeroPerLeg();
   }
 
@@ -69,8 +70,7 @@ class Actuation {
   EnergyMeter energy_;
   Battery battery_;
   static constexpr std::size_t kLongestDelay = 512;  // steps
-  std::vector<JointCommand> commands_;               // ring of those on their way
-  std::size_t pending_ = 0, next_ = 0;
+  core::DelayLine<JointCommand> commands_;
 };
 
 }  // namespace scoria::sim

@@ -17,6 +17,7 @@
 #include "analysis/signals/motion.h"
 #include "analysis/video/scene.h"
 #include "core/files.h"
+#include "core/math/low_pass.h"
 #include "core/math/so3.h"
 
 namespace scoria::analysis {
@@ -38,7 +39,7 @@ class Camera {
     const double yaw = motion.rpy_rad.z();
     constexpr double kSmooth_s = 0.8, kJump_m = 1.0;
     const double gain =
-        started_ && (p - at_).norm() < kJump_m ? 1.0 - std::exp(-dt_s / kSmooth_s) : 1.0;
+        started_ && (p - at_).norm() < kJump_m ? core::LowPassShare(kSmooth_s, dt_s) : 1.0;
     started_ = true;
     at_ += gain * (p - at_);
     yaw_ += gain * core::WrapToPi(yaw - yaw_);

@@ -72,7 +72,7 @@ void AddJobs(const Campaign& campaign, const CampaignArm& arm, std::vector<std::
     if (set.kind == ConfigNode::Kind::kMap) core::MergeConfig(node, set);
   }
   for (int k = 0; k < campaign.seeds; ++k) {
-    Scenario scenario = core::ReadConfig<Scenario>(node);
+    Scenario scenario = ReadScenario(node);
     CampaignJob job;
     job.arm = arm.name;
     job.seed = scenario.seed = campaign.first_seed + static_cast<std::uint64_t>(k);
@@ -120,7 +120,10 @@ Campaign LoadCampaign(const fs::path& file, const std::vector<std::string>& over
   for (const ArmFile& arm : read.arms) campaign.arms.push_back(ToArm(arm));
   for (std::size_t i = 0; i < read.sweep.size(); ++i)
     campaign.sweep.push_back(MakeAxis(read.sweep[i], node.Find("sweep")->items[i], i));
-  (void)Plan(campaign);  // checks every scenario
+  std::set<std::string> notes;
+  for (const CampaignJob& job : Plan(campaign))  // checks every scenario
+    notes.insert(job.scenario.notes.begin(), job.scenario.notes.end());
+  campaign.notes.assign(notes.begin(), notes.end());
   return campaign;
 }
 

@@ -35,6 +35,7 @@ struct Campaign {
   std::vector<CampaignAxis> sweep;
   std::uint64_t first_seed = 1;
   int seeds = 3;
+  core::ConfigNotes notes;  // about the scenarios' texts
 };
 
 /// Errors: core::ConfigError; every episode's scenario is checked before the first one runs.

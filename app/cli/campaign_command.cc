@@ -43,6 +43,7 @@ void AddCampaign(CLI::App& app, int& exit_code) {
   campaign->add_option("--workers", o->workers, "processes at a time")->check(CLI::Range(1, 1024));
   campaign->callback([o, &exit_code] {
     const Campaign loaded = LoadCampaign(o->file, o->set);
+    for (const std::string& note : loaded.notes) Note(note);
     CampaignOptions options;
     options.folder = o->out.empty() ? std::filesystem::path("out") / core::FileNameOf(loaded.name)
                                     : std::filesystem::path(o->out);

@@ -82,6 +82,7 @@ void AddRun(CLI::App& app, int& exit_code) {
   run->add_flag("--quiet", o->quiet, "print nothing but what goes wrong");
   run->callback([o, &exit_code] {
     const Scenario scenario = LoadScenario(o->scenario, o->set);
+    for (const std::string& note : scenario.notes) Note(note);
     RunOptions options;
     const std::filesystem::path preferred =
         std::filesystem::path("out") / core::FileNameOf(scenario.name);

@@ -9,6 +9,7 @@
 #include "app/episode/rows.h"
 #include "app/episode/state_hash.h"
 #include "core/math/so3.h"
+#include "core/rate.h"
 #include "sim/true_ground.h"
 
 namespace scoria::app {
@@ -49,8 +50,8 @@ Episode::Episode(const Scenario& scenario, const core::RobotDescription& robot,
       fall_detector_(scenario.fall, robot.config.nominal_height_m),
       stuck_detector_(scenario.fall),
       limit_(std::lround(scenario.duration_s / scenario.physics.step_s)),
-      row_every_(std::max(1, static_cast<int>(std::lround(1.0 / (scenario.controller.rates.wbc_Hz *
-                                                                 scenario.physics.step_s))))),
+      row_every_(core::RateDivider(scenario.controller.rates.wbc_Hz, scenario.physics.step_s)
+                     .every_steps()),
       give_truth_(NeedsTruthEver(scenario)) {
   result_.route = operator_.route();
   SetDown(operator_.start(), 0.0, scenario.start == StartPose::kStanding);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/math/low_pass.h"
 #include "core/math/so3.h"
 
 namespace scoria::app {
@@ -103,9 +104,8 @@ Command Operator::FollowRoute(const RouteParams& params, const RobotState& state
   wanted.v_x_mps = params.speed_mps * std::max(0.2, std::cos(error));
   wanted.w_z_radps = std::clamp(params.yaw_gain_per_s * error, -params.max_yaw_rate_radps,
                                 params.max_yaw_rate_radps);
-  const double gain = params.lag_s > 0.0 ? 1.0 - std::exp(-dt_s / params.lag_s) : 1.0;
-  hand_.v_x_mps += gain * (wanted.v_x_mps - hand_.v_x_mps);
-  hand_.w_z_radps += gain * (wanted.w_z_radps - hand_.w_z_radps);
+  core::LowPass(hand_.v_x_mps, wanted.v_x_mps, params.lag_s, dt_s);
+  core::LowPass(hand_.w_z_radps, wanted.w_z_radps, params.lag_s, dt_s);
   return hand_;
 }
 

@@ -136,7 +136,7 @@ LogOrigin ReadLogOrigin(const fs::path& log, const std::vector<std::string>& ove
   const logs::LogMetadata record = ReadScenarioRecord(log);
   core::ConfigNode node = core::ParseConfig(record.at("scenario"), log.string());
   for (const std::string& assignment : overrides) core::ApplyOverride(node, assignment);
-  LogOrigin origin{log, core::ReadConfig<Scenario>(node), record.at("urdf"), {}, {}};
+  LogOrigin origin{log, ReadScenario(node), record.at("urdf"), {}, {}};
   try {
     if (record.contains("meshes")) origin.meshes = MeshesFromJson(json::parse(record.at("meshes")));
     if (record.contains("heightmap_hash"))

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "app/scenario/config_kinds.h"
+#include "core/rate.h"
 
 namespace scoria::app {
 namespace {
@@ -14,9 +15,40 @@ std::string NameOfSet(std::size_t change) {
   return fmt::format("controller_changes[{}].set", change);
 }
 
+/// Rates that the scenario asks for, by key.
+using Rates = std::vector<std::pair<std::string, double>>;
+
+Rates RatesOf(const Scenario& scenario) {
+  const controller::ControllerParams& controller = scenario.controller;
+  Rates rates = {{"controller.rates.wbc_Hz", controller.rates.wbc_Hz},
+                 {"controller.rates.mpc_Hz", controller.rates.mpc_Hz}};
+  std::visit(
+      [&](const auto& adaptation) {
+        if constexpr (requires { adaptation.rate_Hz; })
+          rates.emplace_back("controller.adaptation.rate_Hz", adaptation.rate_Hz);
+      },
+      controller.adaptation);
+  if (const auto* sensors = std::get_if<sim::HonestSensors>(&scenario.sensors)) {
+    const auto add = [&](const char* sensor, const sim::SamplingParams& sampling) {
+      // A rate above that of the physics is one sample in every step.
+      if (sampling.rate_Hz * scenario.physics.step_s < 1.0)
+        rates.emplace_back(fmt::format("sensors.{}.sampling.rate_Hz", sensor), sampling.rate_Hz);
+    };
+    add("imu", sensors->imu.sampling);
+    add("encoders", sensors->encoders.sampling);
+    add("torque", sensors->torque.sampling);
+    add("foot_force", sensors->foot_force.sampling);
+  }
+  return rates;
+}
+
 }  // namespace
 
 std::string Scenario::Problem() const {
+  for (const auto& [key, rate_Hz] : RatesOf(*this)) {
+    if (const std::string problem = core::RateProblem(rate_Hz, physics.step_s); !problem.empty())
+      return fmt::format("{}: {}", key, problem);
+  }
   if (const auto* programme = std::get_if<VelocityProgramme>(&operation)) {
     const std::vector<VelocityStep>& steps = programme->steps;
     for (std::size_t i = 1; i < steps.size(); ++i) {
@@ -64,9 +96,16 @@ bool NeedsTruthEver(const Scenario& scenario) {
                      [](const auto& params) { return controller::NeedsTruth(params); });
 }
 
+Scenario ReadScenario(const core::ConfigNode& node) {
+  core::ConfigNotes notes;
+  auto scenario = core::ReadConfig<Scenario>(node, notes);
+  scenario.notes = std::move(notes);
+  return scenario;
+}
+
 Scenario LoadScenario(const std::filesystem::path& file,
                       const std::vector<std::string>& overrides) {
-  return core::ReadConfig<Scenario>(LoadKind("scenario", file, overrides));
+  return ReadScenario(LoadKind("scenario", file, overrides));
 }
 
 std::string EffectiveYaml(const Scenario& scenario) {

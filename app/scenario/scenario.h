@@ -122,6 +122,7 @@ struct Scenario {
   FallParams fall;
   int max_falls = 1000;
   LogParams log;
+  core::ConfigNotes notes;  // about the text that it was read from; not part of it
   template <class Archive>
   void Serialize(Archive& a) {
     a.Required("name", name);
@@ -154,6 +155,9 @@ struct Scenario {
 
 /// @returns true if the controller needs the truth now or after a change.
 [[nodiscard]] bool NeedsTruthEver(const Scenario& scenario);
+
+/// Errors: core::ConfigError.
+[[nodiscard]] Scenario ReadScenario(const core::ConfigNode& node);
 
 /// Reads and checks a scenario file with command-line overrides "key.sub=value".
 /// Errors: core::ConfigError.

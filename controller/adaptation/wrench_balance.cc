@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/low_pass.h"
 #include "core/math/so3.h"
 
 namespace scoria::controller {
@@ -39,7 +40,8 @@ WrenchBalance::Signals WrenchBalance::CalcSignals(const AdapterInput& in) noexce
   state.p_WB = state.v_WB = Vec3::Zero();
   model_.Calc(state, wb_);
   const Vec3 before = started_ ? w_WS_S_ : in.z.w_WS_S;
-  const double share = LowPassShare(params_.observer.gyro_cutoff_Hz, in.dt_s);
+  const double share =
+      core::LowPassShare(core::TimeConstant_s(params_.observer.gyro_cutoff_Hz), in.dt_s);
   w_WS_S_ = before + share * (in.z.w_WS_S - before);
   const Vec3 w_B = robot_.R_BS * w_WS_S_;
   const Vec3 alpha_B = robot_.R_BS * (w_WS_S_ - before) / in.dt_s;

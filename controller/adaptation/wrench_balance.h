@@ -3,6 +3,7 @@
 
 #include "controller/adaptation/model_adapter.h"
 #include "controller/model/lag.h"
+#include "core/math/delay_line.h"
 #include "core/robot/description.h"
 #include "core/robot/whole_body.h"
 
@@ -73,7 +74,7 @@ class WrenchBalance {
   const core::RobotDescription& robot_;
   core::WholeBodyModel model_;
   core::WholeBody wb_;
-  DelayLine<Signals> signals_;
+  core::DelayLine<Signals> signals_{kLongestLag};
   LowPassChain<kPrompt> prompt_;
   LowPassChain<6> speed_;
   Vec3 w_WS_S_ = Vec3::Zero();

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 
 #include <Eigen/Core>
 
 namespace scoria::controller {
 
-/// Step of a first-order low pass towards its input, for an input held over dt.
-[[nodiscard]] double LowPassShare(double cutoff_Hz, double dt_s) noexcept;
+/// The longest delay in steps.
+inline constexpr std::size_t kLongestLag = 32;
 
 /// By what a force of the momentum observer comes late: its age, and the low passes since.
 struct Lag {
@@ -23,30 +21,6 @@ struct Lag {
 /// @param bandwidth_Hz  natural frequency of the tracking loop; 0: the speeds are immediate.
 [[nodiscard]] Lag CalcLag(double delay_s, double bandwidth_Hz, double cutoff_Hz,
                           double dt_s) noexcept;
-
-/// The newest values of a signal.
-template <class T>
-class DelayLine {
- public:
-  static constexpr std::size_t kMaxSteps = 32;
-
-  void Clear() noexcept { filled_ = 0; }
-  /// @returns the place of the next value, the newest from now on.
-  [[nodiscard]] T& Next() noexcept {
-    newest_ = (newest_ + 1) % ring_.size();
-    filled_ = std::min(filled_ + 1, ring_.size());
-    return ring_[newest_];
-  }
-  /// The value so many steps before the newest, or the oldest if there are fewer.
-  /// @pre  Next was called since the start or Clear.
-  [[nodiscard]] const T& Ago(std::size_t steps) const noexcept {
-    return ring_[(newest_ + ring_.size() - std::min(steps, filled_ - 1)) % ring_.size()];
-  }
-
- private:
-  std::array<T, kMaxSteps + 1> ring_;
-  std::size_t newest_ = 0, filled_ = 0;
-};
 
 /// The low passes of Lag: ω² / (s + ω)², as a critically damped tracking loop of natural frequency
 /// ω has it, then one of first order.

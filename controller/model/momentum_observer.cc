@@ -7,6 +7,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include "core/math/low_pass.h"
+
 namespace scoria::controller {
 
 Vec3 CalcFootForce(const Mat3& J, const Vec3& t, double singular_below_m) noexcept {
@@ -36,7 +38,7 @@ Vec6 MomentumObserver::CalcTrunkAcceleration(const ObserverInput& in) noexcept {
   const Mat3& R_WB = in.wb.state.R_WB;
   const Mat3 R_WS = R_WB * robot_.R_BS;
   const Vec3 before = started_ ? w_WS_S_ : in.z.w_WS_S;
-  const double share = LowPassShare(params_.gyro_cutoff_Hz, in.dt_s);
+  const double share = core::LowPassShare(core::TimeConstant_s(params_.gyro_cutoff_Hz), in.dt_s);
   w_WS_S_ = before + share * (in.z.w_WS_S - before);
   // The change of w in S: R_WS turns with w, and w × w = 0.
   const Vec3 alpha_W = R_WS * (w_WS_S_ - before) / in.dt_s;

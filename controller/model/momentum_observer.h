@@ -3,6 +3,7 @@
 
 #include "controller/model/lag.h"
 #include "core/config/field.h"
+#include "core/math/delay_line.h"
 #include "core/robot/description.h"
 #include "core/robot/state.h"
 #include "core/robot/whole_body.h"
@@ -102,7 +103,7 @@ class MomentumObserver {
   ObserverParams params_;
   const core::RobotDescription& robot_;
   Vec3 g_W_;
-  DelayLine<Sample> samples_;
+  core::DelayLine<Sample> samples_{kLongestLag};
   Vec3 w_WS_S_ = Vec3::Zero();  // filtered
   Vec6 a_B_ = Vec6::Zero();
   LegArray<Vec3> qd_ = ZeroPerLeg();  // of the last call

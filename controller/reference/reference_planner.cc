@@ -6,9 +6,15 @@
 
 #include <Eigen/LU>
 
+#include "core/math/low_pass.h"
 #include "core/math/so3.h"
 
 namespace scoria::controller {
+
+double TimeConstantOfTickGain_s(double gain) {
+  constexpr double kTick_s = 0.01;
+  return gain < 1.0 ? -kTick_s / std::log1p(-std::max(gain, 0.0)) : 0.0;
+}
 namespace {
 
 double Towards(double from, double to, double max_step) noexcept {
@@ -18,13 +24,13 @@ double Towards(double from, double to, double max_step) noexcept {
 }  // namespace
 
 void ReferencePlanner::ObserveFeet(const core::WholeBody& wb, const LegArray<bool>& contact,
-                                   double foot_radius_m) noexcept {
+                                   double foot_radius_m, double dt_s) noexcept {
   for (const Leg leg : kLegs) {
     if (started_ && !contact[leg]) continue;
     foothold_W_[leg] = wb.p_WF[leg] - Vec3(0.0, 0.0, foot_radius_m);
   }
-  FitPlane(wb.state.p_WB, started_ ? params_.plane_slope_gain : 1.0,
-           started_ ? params_.plane_height_gain : 1.0);
+  FitPlane(wb.state.p_WB, started_ ? core::LowPassShare(params_.plane_slope_s, dt_s) : 1.0,
+           started_ ? core::LowPassShare(params_.plane_height_s, dt_s) : 1.0);
 }
 
 void ReferencePlanner::ObserveGround(const core::WholeBody& wb,
@@ -38,7 +44,8 @@ void ReferencePlanner::ObserveGround(const core::WholeBody& wb,
 
 /// Least-squares plane through the four last footholds, low-passed; its height at the body is
 /// filtered on its own.
-void ReferencePlanner::FitPlane(const Vec3& p_WB, double slope_gain, double height_gain) noexcept {
+void ReferencePlanner::FitPlane(const Vec3& p_WB, double slope_share,
+                                double height_share) noexcept {
   Vec3 mean = Vec3::Zero();
   for (const Vec3& p : foothold_W_) mean += p / kNumLegs;
   Eigen::Matrix2d A = Eigen::Matrix2d::Zero();
@@ -53,10 +60,10 @@ void ReferencePlanner::FitPlane(const Vec3& p_WB, double slope_gain, double heig
   const Vec2 slope = (A + kRidge_m2 * Eigen::Matrix2d::Identity()).inverse() * b;
   const Vec2 bounded = slope.cwiseMax(-kMaxSlope).cwiseMin(kMaxSlope);
   const double z_before = plane_.Height(p_WB);
-  plane_.slope += slope_gain * (bounded - plane_.slope);
+  plane_.slope += slope_share * (bounded - plane_.slope);
   const double z_fit = mean.z() + plane_.slope.dot((p_WB - mean).head<2>());
   plane_.origin = p_WB.head<2>();
-  plane_.z0_m = started_ ? z_before + height_gain * (z_fit - z_before) : z_fit;
+  plane_.z0_m = started_ ? z_before + height_share * (z_fit - z_before) : z_fit;
 }
 
 void ReferencePlanner::Ramp(const Command& command, double dt_s) noexcept {

@@ -8,12 +8,14 @@
 
 namespace scoria::controller {
 
+/// Of a low pass that goes this share of the way in every tick of 10 ms.
+[[nodiscard]] double TimeConstantOfTickGain_s(double gain);
+
 struct ReferenceParams {
   double max_yaw_lead_rad = 0.3;
   double max_position_lead_m = 0.10;
   double tilt_share = 0.6;
-  double plane_slope_gain = 0.1;
-  double plane_height_gain = 0.15;
+  double plane_slope_s = 0.095, plane_height_s = 0.0615;
   double max_acceleration_mps2 = 1.0;
   double max_yaw_acceleration_radps2 = 3.0;
   template <class Archive>
@@ -24,9 +26,18 @@ struct ReferenceParams {
     a.Field("max_position_lead_m", max_position_lead_m, {.min = 0.0, .max = 1.0});
     a.Field("tilt_share", tilt_share,
             {.min = 0.0, .max = 1.0, .doc = "share of the ground's tilt that the trunk follows"});
-    a.Field("plane_slope_gain", plane_slope_gain,
-            {.min = 0.0, .max = 1.0, .doc = "low-pass gain per tick of the ground plane's slope"});
-    a.Field("plane_height_gain", plane_height_gain, {.min = 0.0, .max = 1.0});
+    a.Field("plane_slope_s", plane_slope_s,
+            {.min = 0.0,
+             .max = 60.0,
+             .doc = "time constant of the ground plane's slope",
+             .was = "plane_slope_gain",
+             .from_was = TimeConstantOfTickGain_s});
+    a.Field("plane_height_s", plane_height_s,
+            {.min = 0.0,
+             .max = 60.0,
+             .doc = "time constant of the ground plane's height",
+             .was = "plane_height_gain",
+             .from_was = TimeConstantOfTickGain_s});
     a.Field("max_acceleration_mps2", max_acceleration_mps2,
             {.min = 0.05, .max = 20.0, .doc = "ramp of commanded speeds"});
     a.Field("max_yaw_acceleration_radps2", max_yaw_acceleration_radps2, {.min = 0.05, .max = 50.0});
@@ -42,10 +53,11 @@ class ReferencePlanner {
   ReferencePlanner(const ReferenceParams& params, double nominal_height_m) noexcept
       : params_(params), nominal_height_m_(nominal_height_m) {}
 
-  /// Tells where the feet that are down stand; call once per tick before Plan.
+  /// Tells where the feet that are down stand; call before Plan.
   /// @param foot_radius_m lowers the footholds to the ground.
-  void ObserveFeet(const core::WholeBody& wb, const LegArray<bool>& contact,
-                   double foot_radius_m) noexcept;
+  /// @param dt_s          since the last call.
+  void ObserveFeet(const core::WholeBody& wb, const LegArray<bool>& contact, double foot_radius_m,
+                   double dt_s) noexcept;
 
   /// Where the ground is known, in place of ObserveFeet: the plane is the one through the ground
   /// below the four feet, at once.
@@ -60,7 +72,7 @@ class ReferencePlanner {
 
  private:
   void Ramp(const Command& command, double dt_s) noexcept;
-  void FitPlane(const Vec3& p_WB, double slope_gain, double height_gain) noexcept;
+  void FitPlane(const Vec3& p_WB, double slope_share, double height_share) noexcept;
 
   ReferenceParams params_;
   double nominal_height_m_;

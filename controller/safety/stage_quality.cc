@@ -4,13 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/low_pass.h"
+
 namespace scoria::controller {
 namespace {
-
-template <class T>
-void LowPass(T& y, const T& u, double window_s, double dt_s) noexcept {
-  y += (window_s > dt_s ? dt_s / window_s : 1.0) * (u - y);
-}
 
 bool Swings(const LegPhases& legs, Leg leg) noexcept {
   return legs.mode[leg] == LegMode::kSwing || legs.mode[leg] == LegMode::kStumble;
@@ -22,12 +19,12 @@ bool Swings(const LegPhases& legs, Leg leg) noexcept {
 /// accelerometer says tells a wrong attitude or bias, whatever the covariance admits.
 double StageQuality::CalcEstimator(const StageReports& in, double dt_s) noexcept {
   if (!in.estimate_finite || !in.a_W.allFinite()) return 0.0;
-  if (in.nis_dof > 0) LowPass(nis_ratio_, in.nis / in.nis_dof, params_.nis_window_s, dt_s);
+  if (in.nis_dof > 0) core::LowPass(nis_ratio_, in.nis / in.nis_dof, params_.nis_window_s, dt_s);
   if (!started_) mean_v_W_ = in.v_W;
   started_ = true;
   const double window_s = params_.acceleration_window_s;
-  LowPass(mean_v_W_, in.v_W, window_s, dt_s);
-  LowPass(mean_a_W_, in.a_W, window_s, dt_s);
+  core::LowPass(mean_v_W_, in.v_W, window_s, dt_s);
+  core::LowPass(mean_a_W_, in.a_W, window_s, dt_s);
   const Vec3 by_speed = (in.v_W - mean_v_W_) / window_s;  // low pass of its derivative
   contradiction_W_ = mean_a_W_ - by_speed;
   const double by_acceleration = 1.0 - contradiction_W_.norm() / params_.acceleration_mps2;
@@ -44,15 +41,15 @@ double StageQuality::CalcFooting(const StageReports& in, double dt_s) noexcept {
     stumbled_[leg] = swings && (stumbled_[leg] || held_up);
   }
   mishaps_ += mishaps;
-  LowPass(mishaps_, 0.0, params_.footing_window_s, dt_s);
+  core::LowPass(mishaps_, 0.0, params_.footing_window_s, dt_s);
   const double by_mishaps = 1.0 - mishaps_ / params_.mishaps;
   const double by_tilt = 1.0 - in.tilt_error_rad / params_.tilt_rad;
   return std::max(0.0, std::min(by_mishaps, by_tilt));
 }
 
 const Qualities& StageQuality::Update(const StageReports& in, double dt_s) noexcept {
-  LowPass(answered_, in.body_answered ? 1.0 : 0.0, params_.body_window_s, dt_s);
-  LowPass(spare_, in.torque_spent ? 0.0 : 1.0, params_.load_window_s, dt_s);
+  core::LowPass(answered_, in.body_answered ? 1.0 : 0.0, params_.body_window_s, dt_s);
+  core::LowPass(spare_, in.torque_spent ? 0.0 : 1.0, params_.load_window_s, dt_s);
   const auto set = [&](Watch watch, double quality) {
     qualities_[static_cast<std::size_t>(watch)] = quality;
   };

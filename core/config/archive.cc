@@ -113,6 +113,14 @@ void ThrowUnknownKey(const ConfigNode::Entry& entry, const std::string& path,
   throw ConfigError(entry.key_origin, path, "unknown key" + hint);
 }
 
+void ThrowTwice(const ConfigNode& former, const std::string& path, const char* was) {
+  throw ConfigError(former.origin, path, fmt::format("is given as {}, its former name, too", was));
+}
+
+void AddNote(const ConfigNode& node, const std::string& what, std::vector<std::string>& notes) {
+  notes.push_back(fmt::format("{}: {}", node.origin.ToString(), what));
+}
+
 std::string FormatDouble(double value) {
   if (std::isinf(value)) return value > 0 ? ".inf" : "-.inf";
   return fmt::format("{}", value);

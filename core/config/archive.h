@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -70,6 +71,15 @@ std::vector<std::string> TypeNames(const std::variant<Ts...>*) {
   return {Ts::kType...};
 }
 
+/// Whether a variant's `type` of this name means T.
+template <class T>
+bool IsTypeOf(std::string_view name) {
+  if constexpr (requires { T::kFormerType; }) {
+    if (name == T::kFormerType) return true;
+  }
+  return name == T::kType;
+}
+
 bool ParseBool(const ConfigNode& node, const std::string& path);
 double ParseDouble(const ConfigNode& node, const std::string& path, const FieldRule& rule);
 std::int64_t ParseInt(const ConfigNode& node, const std::string& path, const FieldRule& rule);
@@ -82,15 +92,21 @@ std::string ParseString(const ConfigNode& node, const std::string& path);
 [[noreturn]] void ThrowLength(const ConfigNode& node, const std::string& path, std::size_t want);
 [[noreturn]] void ThrowUnknownKey(const ConfigNode::Entry& entry, const std::string& path,
                                   const std::vector<std::string>& known);
+void AddNote(const ConfigNode& node, const std::string& what, std::vector<std::string>& notes);
+[[noreturn]] void ThrowTwice(const ConfigNode& former, const std::string& path, const char* was);
 std::string FormatDouble(double value);
 ConfigNode Scalar(std::string text);
 
 }  // namespace config_detail
 
+/// What reading says besides the value, a sentence each: names that are now others.
+using ConfigNotes = std::vector<std::string>;
+
 /// Reads one map strictly: after Serialize, every key of the map must have been asked for.
 class ConfigReader {
  public:
-  ConfigReader(const ConfigNode& node, std::string path) : node_(node), path_(std::move(path)) {
+  ConfigReader(const ConfigNode& node, std::string path, ConfigNotes& notes)
+      : node_(node), path_(std::move(path)), notes_(notes) {
     if (node.kind != ConfigNode::Kind::kMap && node.kind != ConfigNode::Kind::kNull) {
       config_detail::ThrowKind(node, path_, "a map");
     }
@@ -100,12 +116,18 @@ class ConfigReader {
   template <class T>
   void Field(const char* key, T& value, const FieldRule& rule = {}) {
     known_.emplace_back(key);
-    if (const ConfigNode* child = node_.Find(key)) Read(*child, PathOf(key), value, rule);
+    const ConfigNode* child = node_.Find(key);
+    if (const ConfigNode* former = rule.was != nullptr ? node_.Find(rule.was) : nullptr) {
+      if (child != nullptr) config_detail::ThrowTwice(*former, PathOf(key), rule.was);
+      ReadFormer(*former, key, value, rule);
+    } else if (child != nullptr) {
+      Read(*child, PathOf(key), notes_, value, rule);
+    }
   }
 
   template <class T>
   void Required(const char* key, T& value, const FieldRule& rule = {}) {
-    if (node_.Find(key) == nullptr) {
+    if (node_.Find(key) == nullptr && (rule.was == nullptr || node_.Find(rule.was) == nullptr)) {
       throw ConfigError(node_.origin, PathOf(key), "is missing and has no default");
     }
     Field(key, value, rule);
@@ -113,14 +135,15 @@ class ConfigReader {
 
   void Finish() const {
     for (const ConfigNode::Entry& entry : node_.entries) {
-      if (std::find(known_.begin(), known_.end(), entry.key) == known_.end()) {
+      if (std::ranges::find(known_, entry.key) == known_.end() &&
+          std::ranges::find(former_, entry.key) == former_.end()) {
         config_detail::ThrowUnknownKey(entry, PathOf(entry.key), known_);
       }
     }
   }
 
   template <class T>
-  static void Read(const ConfigNode& node, const std::string& path, T& value,
+  static void Read(const ConfigNode& node, const std::string& path, ConfigNotes& notes, T& value,
                    const FieldRule& rule = {});
 
  private:
@@ -136,16 +159,58 @@ class ConfigReader {
       if (!problem.empty()) throw ConfigError(node.origin, path, problem);
     }
   }
+  template <class T>
+  void ReadFormer(const ConfigNode& former, const char* key, T& value, FieldRule rule) {
+    former_.emplace_back(rule.was);
+    if constexpr (std::is_same_v<T, double>) {
+      if (rule.from_was != nullptr) rule.min = -(rule.max = FieldRule{}.max);
+    }
+    Read(former, PathOf(rule.was), notes_, value, rule);
+    std::string note = fmt::format("{} is now {}", PathOf(rule.was), key);
+    if constexpr (std::is_same_v<T, double>) {
+      if (rule.from_was != nullptr) {
+        value = rule.from_was(value);
+        note += fmt::format(", here {}", config_detail::FormatDouble(value));
+      }
+    }
+    config_detail::AddNote(former, note, notes_);
+  }
   template <class Variant>
-  static void ReadVariant(const ConfigNode& node, const std::string& path, Variant& value);
+  static void ReadVariant(const ConfigNode& node, const std::string& path, ConfigNotes& notes,
+                          Variant& value);
+  template <class Enum>
+  static void ReadEnum(const ConfigNode& node, const std::string& path, ConfigNotes& notes,
+                       Enum& value);
 
   const ConfigNode& node_;
   std::string path_;
-  std::vector<std::string> known_;
+  ConfigNotes& notes_;
+  std::vector<std::string> known_, former_;
 };
 
+template <class Enum>
+void ConfigReader::ReadEnum(const ConfigNode& node, const std::string& path, ConfigNotes& notes,
+                            Enum& value) {
+  const std::string name = config_detail::ParseString(node, path);
+  for (const auto& [v, n] : EnumNames(Enum{})) {
+    if (n != name) continue;
+    value = v;
+    return;
+  }
+  if constexpr (requires { FormerNames(Enum{}); }) {
+    for (const auto& [v, n] : FormerNames(Enum{})) {
+      if (n != name) continue;
+      value = v;
+      config_detail::AddNote(node, fmt::format("{}: {} is now {}", path, n, EnumName(v)), notes);
+      return;
+    }
+  }
+  config_detail::ThrowUnknownChoice(node, path, config_detail::Choices<Enum>());
+}
+
 template <class Variant>
-void ConfigReader::ReadVariant(const ConfigNode& node, const std::string& path, Variant& value) {
+void ConfigReader::ReadVariant(const ConfigNode& node, const std::string& path, ConfigNotes& notes,
+                               Variant& value) {
   if (node.kind != ConfigNode::Kind::kMap)
     config_detail::ThrowKind(node, path, "a map with a type");
   // Without a type it is the default's.
@@ -154,10 +219,13 @@ void ConfigReader::ReadVariant(const ConfigNode& node, const std::string& path, 
       type != nullptr ? type->scalar : config_detail::TypeNames(&value)[value.index()];
   bool found = false;
   auto try_alternative = [&]<class T>(std::type_identity<T>) {
-    if (found || name != T::kType) return;
+    if (found || !config_detail::IsTypeOf<T>(name)) return;
     found = true;
+    if (name != T::kType)
+      config_detail::AddNote(*type, fmt::format("{}.type: {} is now {}", path, name, T::kType),
+                             notes);
     T alternative = std::holds_alternative<T>(value) ? std::get<T>(value) : T{};
-    ConfigReader reader(node, path);
+    ConfigReader reader(node, path, notes);
     reader.known_.emplace_back("type");
     alternative.Serialize(reader);
     reader.Finish();
@@ -172,8 +240,8 @@ void ConfigReader::ReadVariant(const ConfigNode& node, const std::string& path, 
 }
 
 template <class T>
-void ConfigReader::Read(const ConfigNode& node, const std::string& path, T& value,
-                        const FieldRule& rule) {
+void ConfigReader::Read(const ConfigNode& node, const std::string& path, ConfigNotes& notes,
+                        T& value, const FieldRule& rule) {
   namespace d = config_detail;
   if constexpr (std::is_same_v<T, bool>) {
     value = d::ParseBool(node, path);
@@ -194,37 +262,30 @@ void ConfigReader::Read(const ConfigNode& node, const std::string& path, T& valu
     const std::filesystem::path given = d::ParseString(node, path);
     value = given.empty() ? given : (node.origin.Folder() / given).lexically_normal();
   } else if constexpr (NamedEnum<T>) {
-    const std::string name = d::ParseString(node, path);
-    for (const auto& [v, n] : EnumNames(T{})) {
-      if (n == name) {
-        value = v;
-        return;
-      }
-    }
-    d::ThrowUnknownChoice(node, path, d::Choices<T>());
+    ReadEnum(node, path, notes, value);
   } else if constexpr (d::IsOptional<T>::value) {
     if (node.kind == ConfigNode::Kind::kNull) {
       value.reset();
     } else {
-      Read(node, path, value.emplace(), rule);
+      Read(node, path, notes, value.emplace(), rule);
     }
   } else if constexpr (d::IsVector<T>::value) {
     if (node.kind != ConfigNode::Kind::kSequence) d::ThrowKind(node, path, "a list");
     value.clear();
     for (std::size_t i = 0; i < node.items.size(); ++i) {
-      Read(node.items[i], fmt::format("{}[{}]", path, i), value.emplace_back(), rule);
+      Read(node.items[i], fmt::format("{}[{}]", path, i), notes, value.emplace_back(), rule);
     }
   } else if constexpr (d::IsArray<T>::value || std::is_same_v<T, Vec3>) {
     if (node.kind != ConfigNode::Kind::kSequence) d::ThrowKind(node, path, "a list");
     const std::size_t n = static_cast<std::size_t>(value.size());
     if (node.items.size() != n) d::ThrowLength(node, path, n);
     for (std::size_t i = 0; i < n; ++i) {
-      Read(node.items[i], fmt::format("{}[{}]", path, i), value[i], rule);
+      Read(node.items[i], fmt::format("{}[{}]", path, i), notes, value[i], rule);
     }
   } else if constexpr (d::IsVariant<T>::value) {
-    ReadVariant(node, path, value);
+    ReadVariant(node, path, notes, value);
   } else {
-    ConfigReader reader(node, path);
+    ConfigReader reader(node, path, notes);
     value.Serialize(reader);
     reader.Finish();
     CheckWhole(node, path, value);
@@ -382,10 +443,15 @@ FieldInfo ConfigDescriber::Describe(T& value) {
 /// @returns T with defaults overridden by `node`.
 /// Errors: ConfigError naming file, line, column, key, value and what is allowed.
 template <class T>
-[[nodiscard]] T ReadConfig(const ConfigNode& node) {
+[[nodiscard]] T ReadConfig(const ConfigNode& node, ConfigNotes& notes) {
   T value{};
-  ConfigReader::Read(node, "", value);
+  ConfigReader::Read(node, "", notes, value);
   return value;
+}
+template <class T>
+[[nodiscard]] T ReadConfig(const ConfigNode& node) {
+  ConfigNotes notes;
+  return ReadConfig<T>(node, notes);
 }
 
 template <class T>

@@ -15,13 +15,17 @@
 /// struct needs, so that it can be used without any reader of files.
 /// Supported: bool, int, uint64_t, double, string, path (relative to the file that names it), enum
 /// with EnumNames(), Vec3, array, vector, optional, struct with Serialize, and std::variant of
-/// structs that each have kType, chosen by the key `type`.
+/// structs that each have kType, chosen by the key `type`. Names that were once others are still
+/// read, with a note: of a key by FieldRule::was, of a struct's type by its kFormerType, of an enum
+/// value by FormerNames(), like EnumNames().
 namespace scoria::core {
 
 struct FieldRule {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
   const char* doc = "";
+  const char* was = nullptr;             // the key's former name, still read, with a note
+  double (*from_was)(double) = nullptr;  // a number under it as it reads today; none: the same
 };
 
 template <class T>

@@ -26,8 +26,8 @@ TrackingLoop::State TrackingLoop::Advance(const State& s, double input_rad) cons
 Encoders::Encoders(const EncoderParams& params, double step_s, std::uint64_t seed)
     : quantum_rad_(params.bits == 0 ? 0.0 : std::ldexp(2.0 * std::numbers::pi, -params.bits)),
       tracks_(params.velocity_bandwidth_Hz > 0.0),
-      clock_(params.sampling, step_s),
-      delay_(params.sampling, step_s),
+      clock_(SampleClock(params.sampling, step_s)),
+      delay_(Latency<Sample>(params.sampling, step_s)),
       loop_(params.velocity_bandwidth_Hz, step_s) {
   core::Rng rng(seed, 0, core::Stream::kEncoder);
   for (Vec3& leg : phase_rad_) {
@@ -37,7 +37,7 @@ Encoders::Encoders(const EncoderParams& params, double step_s, std::uint64_t see
 
 void Encoders::Reset() noexcept {
   clock_.Reset();
-  delay_.Reset();
+  delay_.Clear();
   is_tracking_ = false;
 }
 

@@ -51,8 +51,8 @@ class Encoders {
 
   double quantum_rad_;  // 0: none
   bool tracks_;
-  SampleClock clock_;
-  DelayLine<Sample> delay_;
+  core::RateDivider clock_;
+  core::DelayLine<Sample> delay_;
   TrackingLoop loop_;
   LegArray<Vec3> phase_rad_ = ZeroPerLeg();
   LegArray<std::array<TrackingLoop::State, kJointsPerLeg>> tracked_;

@@ -9,8 +9,8 @@ namespace scoria::sim {
 FootForceSensors::FootForceSensors(const FootForceParams& params, double step_s, std::uint64_t seed)
     : params_(params),
       noise_(seed, 0, core::Stream::kFootForce),
-      clock_(params.sampling, step_s),
-      delay_(params.sampling, step_s),
+      clock_(SampleClock(params.sampling, step_s)),
+      delay_(Latency<LegArray<double>>(params.sampling, step_s)),
       walk_sigma_(params.drift_per_sqrt_s * std::sqrt(clock_.interval_s())) {
   for (const Leg leg : kLegs) {
     // The logarithm keeps gains positive at any spread.
@@ -21,7 +21,7 @@ FootForceSensors::FootForceSensors(const FootForceParams& params, double step_s,
 
 void FootForceSensors::Reset() noexcept {
   clock_.Reset();
-  delay_.Reset();
+  delay_.Clear();
 }
 
 double FootForceSensors::Counts(Leg leg, double force_N, const FootFault& fault) const noexcept {

@@ -29,8 +29,8 @@ class FootForceSensors {
 
   FootForceParams params_;
   core::Rng noise_;
-  SampleClock clock_;
-  DelayLine<LegArray<double>> delay_;
+  core::RateDivider clock_;
+  core::DelayLine<LegArray<double>> delay_;
   double walk_sigma_;
   LegArray<double> gain_per_N_, zero_;
   LegArray<double> newest_;

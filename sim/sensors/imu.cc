@@ -27,8 +27,8 @@ Imu::Imu(const core::RobotDescription& robot, const ImuParams& params, const Vec
       step_s_(step_s),
       noise_(seed, 0, core::Stream::kImu),
       loss_(seed, 0, core::Stream::kSensorFault),
-      clock_(params.sampling, step_s),
-      delay_(params.sampling, step_s),
+      clock_(SampleClock(params.sampling, step_s)),
+      delay_(Latency<Sample>(params.sampling, step_s)),
       scale_(Vec6::Ones() + params.scale_error * DrawNormals<6>(noise_)),
       bias_(Join(params.gyro_bias_radps, params.accel_bias_mps2)
                 .cwiseProduct(DrawNormals<6>(noise_))),
@@ -39,7 +39,7 @@ Imu::Imu(const core::RobotDescription& robot, const ImuParams& params, const Vec
 
 void Imu::Reset() noexcept {
   clock_.Reset();
-  delay_.Reset();
+  delay_.Clear();
   has_velocity_ = false;
   sum_a_S_ = sum_w_S_ = Vec3::Zero();
   summed_ = 0;

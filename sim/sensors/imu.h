@@ -41,8 +41,8 @@ class Imu {
   Vec3 gravity_W_;
   double step_s_;
   core::Rng noise_, loss_;
-  SampleClock clock_;
-  DelayLine<Sample> delay_;
+  core::RateDivider clock_;
+  core::DelayLine<Sample> delay_;
   // Gyro, then accelerometer.
   Vec6 scale_, bias_, noise_sigma_, walk_sigma_;
   Sample newest_;

@@ -13,8 +13,8 @@ Vec3 OfLeg(const Vec12& v, Leg leg) noexcept {
 TorqueSensor::TorqueSensor(const TorqueSensorParams& params, double step_s, std::uint64_t seed)
     : noise_Nm_(params.noise_Nm),
       noise_(seed, 0, core::Stream::kTorqueSensor),
-      clock_(params.sampling, step_s),
-      delay_(params.sampling, step_s) {
+      clock_(SampleClock(params.sampling, step_s)),
+      delay_(Latency<LegArray<Vec3>>(params.sampling, step_s)) {
   const Vec12 gain = Vec12::Ones() + params.gain_error * DrawNormals<kNumJoints>(noise_);
   const Vec12 offset = params.offset_Nm * DrawNormals<kNumJoints>(noise_);
   for (const Leg leg : kLegs) {
@@ -25,7 +25,7 @@ TorqueSensor::TorqueSensor(const TorqueSensorParams& params, double step_s, std:
 
 void TorqueSensor::Reset() noexcept {
   clock_.Reset();
-  delay_.Reset();
+  delay_.Clear();
 }
 
 const LegArray<Vec3>& TorqueSensor::Read(const LegArray<Vec3>& motor_tau_Nm,

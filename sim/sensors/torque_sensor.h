@@ -26,8 +26,8 @@ class TorqueSensor {
  private:
   double noise_Nm_;
   core::Rng noise_;
-  SampleClock clock_;
-  DelayLine<LegArray<Vec3>> delay_;
+  core::RateDivider clock_;
+  core::DelayLine<LegArray<Vec3>> delay_;
   LegArray<Vec3> gain_ = ZeroPerLeg(), offset_Nm_ = ZeroPerLeg();
   LegArray<Vec3> newest_Nm_ = ZeroPerLeg();
 };

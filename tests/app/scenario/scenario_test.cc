@@ -185,6 +185,41 @@ TEST(ControllerChanges, AreCheckedWhenTheScenarioIsRead) {
             "controller_changes[1].at_s: 1 is before 2, that of the change above");
 }
 
+TEST(Scenario, RatesThatDoNotDivideAreRefused) {
+  const auto error = [](const std::string& set) -> std::string {
+    try {
+      (void)test::LoadScenario("flat", {set});
+    } catch (const core::ConfigError& e) {
+      const std::string text = e.what();
+      return text.substr(text.find(": ") + 2);
+    }
+    return "";
+  };
+  constexpr const char* kProblem =
+      "300 Hz is no whole number of physics steps of 0.001 s; the nearest rates are 333.3 and 250 "
+      "Hz";
+  for (const std::string key :
+       {"controller.rates.wbc_Hz", "controller.rates.mpc_Hz", "sensors.imu.sampling.rate_Hz",
+        "sensors.foot_force.sampling.rate_Hz"}) {
+    EXPECT_EQ(error(key + "=300"), key + ": " + kProblem);
+  }
+  EXPECT_EQ(error("controller.adaptation={type: kf, rate_Hz: 300}"),
+            std::string("controller.adaptation.rate_Hz: ") + kProblem);
+  EXPECT_EQ(error("sensors.imu.sampling.rate_Hz=4000"), "");  // one in every step
+  EXPECT_EQ(error("physics.step_s=0.0005"), "");
+}
+
+// A log of an older version holds the gain per tick.
+TEST(Scenario, FormerKeysAreReadAndNoted) {
+  const Scenario scenario =
+      test::LoadScenario("flat", {"controller.reference.plane_slope_gain=0.1"});
+  EXPECT_NEAR(scenario.controller.reference.plane_slope_s, 0.0949, 1e-4);
+  ASSERT_EQ(scenario.notes.size(), 1u);
+  EXPECT_NE(scenario.notes[0].find("controller.reference.plane_slope_gain is now plane_slope_s"),
+            std::string::npos)
+      << scenario.notes[0];
+}
+
 // A change of one choice leaves the section's other keys as they were tuned.
 TEST(ControllerChanges, KeepWhatTheyDoNotName) {
   const Scenario scenario =

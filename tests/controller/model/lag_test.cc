@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "controller/model/lag.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -15,20 +14,6 @@ using Scalar = LowPassChain<1>::Vector;
 constexpr double kStep_s = 1e-3;
 
 Scalar Of(double x) { return Scalar::Constant(x); }
-
-TEST(DelayLine, GivesOlderValuesAndTheOldestWhereThereAreFewer) {
-  DelayLine<int> line;
-  for (int i = 0; i < 100; ++i) {
-    line.Next() = i;
-    EXPECT_EQ(line.Ago(0), i);
-    EXPECT_EQ(line.Ago(3), std::max(0, i - 3));
-  }
-  const int most = static_cast<int>(DelayLine<int>::kMaxSteps);
-  EXPECT_EQ(line.Ago(1000), 99 - most);
-  line.Clear();
-  line.Next() = 7;
-  EXPECT_EQ(line.Ago(3), 7);
-}
 
 TEST(CalcLag, RoundsTheDelayAndIsOpenWithoutALoop) {
   const Lag lag = CalcLag(0.0024, 0.0, 60.0, kStep_s);

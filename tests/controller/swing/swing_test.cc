@@ -257,7 +257,7 @@ TEST(ReferencePlanner, FollowsTheGroundPlaneAndHoldsStillWhenStanding) {
   for (const Leg leg : kLegs) wb.p_WF[leg].z() = 0.022 + 0.1 * wb.p_WF[leg].x();
   BodyReference reference;
   for (int i = 0; i < 200; ++i) {
-    planner.ObserveFeet(wb, LegArray<bool>(true), 0.022);
+    planner.ObserveFeet(wb, LegArray<bool>(true), 0.022, 0.01);
     reference = planner.Plan(wb, Command{}, 10, 0.05, 0.01);
   }
   EXPECT_NEAR(planner.plane().slope.x(), 0.1, 1e-3);

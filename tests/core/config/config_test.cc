@@ -101,6 +101,64 @@ TEST(Config, VariantWithoutTypeKeepsItsDefaultsType) {
   EXPECT_EQ(std::get<Square>(read.shape).edge_m, 1.5);
 }
 
+enum class Surface { kRough };
+constexpr std::array<std::pair<Surface, std::string_view>, 1> EnumNames(Surface) {
+  return {{{Surface::kRough, "rough"}}};
+}
+constexpr std::array<std::pair<Surface, std::string_view>, 1> FormerNames(Surface) {
+  return {{{Surface::kRough, "bumpy"}}};
+}
+
+struct Disc {
+  static constexpr const char* kType = "disc";
+  static constexpr const char* kFormerType = "plate";
+  double radius_m = 1.0;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Field("radius_m", radius_m,
+            {.min = 0.1, .max = 2.0, .was = "diameter_m", .from_was = [](double diameter_m) {
+               return 0.5 * diameter_m;
+             }});
+  }
+};
+
+struct Renamed {
+  int count = 0;
+  Surface surface = Surface::kRough;
+  std::variant<Square, Disc> shape;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Required("count", count, {.max = 9, .was = "number"});
+    a.Field("surface", surface);
+    a.Field("shape", shape);
+  }
+};
+
+TEST(Config, FormerNamesAreReadWithANote) {
+  ConfigNotes notes;
+  const auto read = ReadConfig<Renamed>(
+      ParseConfig("number: 4\nsurface: bumpy\nshape: {type: plate, diameter_m: 3}\n", "d.yaml"),
+      notes);
+  EXPECT_EQ(read.count, 4);
+  EXPECT_EQ(std::get<Disc>(read.shape).radius_m, 1.5);
+  EXPECT_EQ(notes, (ConfigNotes{"d.yaml:1:9: number is now count",
+                                "d.yaml:2:10: surface: bumpy is now rough",
+                                "d.yaml:3:15: shape.type: plate is now disc",
+                                "d.yaml:3:34: shape.diameter_m is now radius_m, here 1.5"}));
+  const auto error_of = [](const char* yaml) -> std::string {
+    try {
+      (void)ReadConfig<Renamed>(ParseConfig(yaml, "d.yaml"));
+    } catch (const ConfigError& e) {
+      return e.what();
+    }
+    return "no error";
+  };
+  EXPECT_EQ(error_of("number: 12\n"), "d.yaml:1:9: number: 12 is outside [-.inf, 9]");
+  EXPECT_EQ(error_of("number: 4\ncount: 4\n"),
+            "d.yaml:1:9: count: is given as number, its former name, too");
+  EXPECT_EQ(error_of("nummer: 4\n"), "d.yaml:1:1: count: is missing and has no default");
+}
+
 TEST(Config, WrittenConfigReadsBackEqual) {
   Sample sample;
   sample.name = "a: \"quoted\" name # with signs";
