@@ -13,8 +13,8 @@
 namespace scoria::controller {
 namespace {
 
-Count CountOf(Watch watch) noexcept {
-  return static_cast<Count>(static_cast<int>(Count::kFallbackMpc) + static_cast<int>(watch));
+Count CountOf(Monitor monitor) noexcept {
+  return static_cast<Count>(static_cast<int>(Count::kFallbackMpc) + static_cast<int>(monitor));
 }
 
 }  // namespace
@@ -63,7 +63,7 @@ const ControlOutput& Controller::Step(const SensorFrame& z, const Command& comma
                                       const TrueInputs& true_inputs) noexcept {
   out_.times = {};
   core::Lap lap(out_.times);
-  Feel(z, true_inputs);
+  Sense(z, true_inputs);
   lap.Book(core::Stage::kEstimation);
   out_.mpc_updated = out_.wbc_updated = false;
   out_.transitions.count = 0;
@@ -136,7 +136,7 @@ void Controller::Reconfigure(const ControllerParams& params) {
 }
 
 /// Checks what the sensors say, then contacts, state, mass and the model at that state.
-void Controller::Feel(const SensorFrame& raw, const TrueInputs& true_inputs) noexcept {
+void Controller::Sense(const SensorFrame& raw, const TrueInputs& true_inputs) noexcept {
   const CheckedFrame& checked = samples_.Check(raw, counters_);
   if (clock_.step() == first_step_) {
     RobotState at_hand;
@@ -249,16 +249,16 @@ void Controller::StepBody(SolverFault fault) noexcept {
   double plan_age_s = static_cast<double>(clock_.step() - active_.step) * step_s;
   ForcePlan plan = active_.plan;
   if (!plan.valid || plan_age_s > params_.safety.max_plan_age_s ||
-      supervisor_.HasFallenBack(Watch::kMpc)) {
+      supervisor_.HasFallenBack(Monitor::kMpc)) {
     counters_.Add(Count::kPlanExpired);
     plan = StandInPlan(wb_.mass_kg * model_.gravity_mps2(), out_.legs.Contacts(), reference_,
                        params_.mpc.stage_s);
     plan_age_s = 0.0;
   }
-  const core::Stopwatch watch;
+  const core::Stopwatch stopwatch;
   const WbcResult result =
       SolveBody({wb_, out_.legs, out_.feet, plan, plan_age_s, reference_.n_W}, fault);
-  out_.wbc_solve_s = watch.seconds();
+  out_.wbc_solve_s = stopwatch.seconds();
   out_.wbc_updated = true;
   out_.wbc_status = result.status;
   out_.wbc_iterations = result.iterations;
@@ -278,15 +278,15 @@ WbcResult Controller::SolveBody(const WbcInput& in, SolverFault fault) noexcept 
   if (result.torque_rows_dropped) counters_.Add(Count::kTorqueRowsDropped);
   if (result.singular_leg) counters_.Add(Count::kSingularLeg);
   const bool failed = !IsUsable(result.status) || !IsFinite(result.command);
-  const bool given_up = supervisor_.HasFallenBack(Watch::kBody);
+  const bool on_fallback = supervisor_.HasFallenBack(Monitor::kBody);
   body_answered_ = !failed && fault != SolverFault::kLate;
-  if (body_answered_ && !given_up) {
+  if (body_answered_ && !on_fallback) {
     command_step_ = clock_.step();
     return result;
   }
   if (!body_answered_) counters_.Add(failed ? Count::kWbcFailure : Count::kWbcLate);
   const double age_s = static_cast<double>(clock_.step() - command_step_) * clock_.step_s();
-  if (!failed && !given_up && age_s <= params_.safety.max_command_age_s) {
+  if (!failed && !on_fallback && age_s <= params_.safety.max_command_age_s) {
     result.command = out_.command;
     return result;
   }
@@ -333,28 +333,29 @@ void Controller::Supervise() noexcept {
   out_.qualities = quality_.qualities();
   out_.transitions = supervisor_.transitions();
   for (std::size_t i = 0; i < out_.transitions.count; ++i) Act(out_.transitions.list[i]);
-  for (std::size_t i = 0; i < kNumWatches; ++i)
-    out_.fallen_back[i] = supervisor_.HasFallenBack(static_cast<Watch>(i));
+  for (std::size_t i = 0; i < kNumMonitors; ++i)
+    out_.fallen_back[i] = supervisor_.HasFallenBack(static_cast<Monitor>(i));
 }
 
-/// What is done once when a stage is given up or taken back; the rest follows from the supervisor's
+/// What is done once when a fallback is engaged or released; the rest follows from the supervisor's
 /// state.
 void Controller::Act(const Transition& transition) noexcept {
-  if (transition.fell_back) counters_.Add(CountOf(transition.watch));
-  if (transition.watch == Watch::kEstimator && transition.fell_back) {
+  if (transition.fell_back) counters_.Add(CountOf(transition.monitor));
+  if (transition.monitor == Monitor::kEstimator && transition.fell_back) {
     // A tilt ξ too far turns gravity into the acceleration ξ × g z that the speed does not show.
-    const Vec3 xi_W = Vec3::UnitZ().cross(quality_.contradiction_W()) / model_.gravity_mps2();
+    const Vec3 xi_W =
+        Vec3::UnitZ().cross(quality_.acceleration_residual_W()) / model_.gravity_mps2();
     StateEstimate upright = out_.estimate;
     upright.state.R_WB = core::ExpSo3(-xi_W) * upright.state.R_WB;
-    estimator_->Continue(upright, params_.supervisor.doubt);
+    estimator_->Continue(upright, params_.supervisor.covariance_scale);
   }
-  if (transition.watch == Watch::kContact) contact_->SetChoice(ContactChoiceInForce());
+  if (transition.monitor == Monitor::kContact) contact_->SetChoice(ContactChoiceInForce());
 }
 
 /// The chosen source, or the hierarchy while the supervisor has fallen back on it.
 ContactChoice Controller::ContactChoiceInForce() const noexcept {
-  return supervisor_.HasFallenBack(Watch::kContact) ? ContactChoice::kHierarchy
-                                                    : params_.contact.source;
+  return supervisor_.HasFallenBack(Monitor::kContact) ? ContactChoice::kHierarchy
+                                                      : params_.contact.source;
 }
 
 }  // namespace scoria::controller

@@ -99,7 +99,7 @@ struct ControlOutput {
   double mpc_solve_s = 0.0, wbc_solve_s = 0.0;  // wall clock
   Qualities qualities{};                        // of the stages, by their own word
   Transitions transitions;                      // of this step
-  std::array<bool, kNumWatches> fallen_back{};
+  std::array<bool, kNumMonitors> fallen_back{};
   core::StageTimes times;  // of this step
 };
 
@@ -173,7 +173,7 @@ class Controller {
   [[nodiscard]] const WholeBodyController& wbc() const noexcept { return *wbc_; }
 
  private:
-  void Feel(const SensorFrame& z, const TrueInputs& true_inputs) noexcept;
+  void Sense(const SensorFrame& z, const TrueInputs& true_inputs) noexcept;
   void SubstituteState(const TrueInputs& true_inputs) noexcept;
   void UpdateModel(const TrueInputs& true_inputs) noexcept;
   void StepPlans(const Command& command, const LocalGround* ground) noexcept;

@@ -30,10 +30,9 @@ std::string RateProblem(double rate_Hz, double step_s) {
   if (StepsBetween(rate_Hz, step_s)) return "";
   const double fewer = std::max(1.0, std::floor(1.0 / (rate_Hz * step_s)));
   const std::string nearest =
-      rate_Hz * step_s > 1.0
-          ? fmt::format("the highest rate is {:.4g} Hz", 1.0 / step_s)
-          : fmt::format("the nearest rates are {:.4g} and {:.4g} Hz", 1.0 / (fewer * step_s),
-                        1.0 / ((fewer + 1.0) * step_s));
+      rate_Hz * step_s > 1.0 ? fmt::format("the highest rate is {:.4g} Hz", 1.0 / step_s)
+                             : fmt::format("the nearest rates are {:.4g} and {:.4g} Hz",
+                                           1.0 / (fewer * step_s), 1.0 / ((fewer + 1.0) * step_s));
   return fmt::format("{} Hz is no whole number of physics steps of {} s; {}", rate_Hz, step_s,
                      nearest);
 }

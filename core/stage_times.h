@@ -48,13 +48,13 @@ class Lap {
  public:
   explicit Lap(StageTimes& times) noexcept : times_(&times) {}
   void Book(Stage stage) noexcept {
-    times_->Add(stage, watch_.seconds());
-    watch_ = Stopwatch();
+    times_->Add(stage, stopwatch_.seconds());
+    stopwatch_ = Stopwatch();
   }
 
  private:
   StageTimes* times_;
-  Stopwatch watch_;
+  Stopwatch stopwatch_;
 };
 
 }  // namespace scoria::core

@@ -30,7 +30,7 @@ struct SlidingPayloadParams {
 };
 
 /// Its one coordinate x rides beside the robot's eighteen and is eliminated from the step before
-/// the solver sees it, so that contacts feel its inertia exactly. With r = p_BP_W, u the axis in W,
+/// the solver sees it, so that contacts bear its inertia exactly. With r = p_BP_W, u the axis in W,
 /// J = [1, −Skew(r)] and v_P = J v_B + u ẋ, one step is
 ///   (H + m JᵀJ) Δv + b Δẋ = dt (τ − h − Jᵀ m (β − g)),   b = m Jᵀu,
 ///   bᵀ Δv + (m + c dt) Δẋ = dt (−k x − c ẋ − m u·(β − g)),
@@ -43,7 +43,7 @@ class SlidingPayload {
   /// Puts it at rest on the trunk with the spring slack.
   void Reset() noexcept { x_m_ = rate_mps_ = 0.0; }
 
-  /// Adds what the trunk feels of it in a step of `dt_s` to H_BB and h_B.
+  /// Adds what it does to the trunk in a step of `dt_s` to H_BB and h_B.
   void AddTo(core::WholeBody& wb, double dt_s) const noexcept;
 
   /// The share of H_BB that a sudden change of velocity meets, with x free.

@@ -45,11 +45,11 @@ Vec18 StepSolver::Solve(const core::WholeBody& wb, const LegArray<Vec3>& tau_Nm,
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     ContactPoint& c = contacts[i];
     const ContactRows& rows = contacts_[i];
-    const Vec3 across_W = Tangent(c.n_W), along_W = c.n_W.cross(across_W);
-    c.impulse_W =
-        rows.normal.impulse * c.n_W + rows.across.impulse * across_W + rows.along.impulse * along_W;
-    c.v_W = Velocity(rows.normal, v_) * c.n_W + Velocity(rows.across, v_) * across_W +
-            Velocity(rows.along, v_) * along_W;
+    const Vec3 tangent1_W = Tangent(c.n_W), tangent2_W = c.n_W.cross(tangent1_W);
+    c.impulse_W = rows.normal.impulse * c.n_W + rows.tangent1.impulse * tangent1_W +
+                  rows.tangent2.impulse * tangent2_W;
+    c.v_W = Velocity(rows.normal, v_) * c.n_W + Velocity(rows.tangent1, v_) * tangent1_W +
+            Velocity(rows.tangent2, v_) * tangent2_W;
   }
   for (std::size_t j = 0; j < kNumJoints; ++j) friction_guess_[j] = joints_[j].row.impulse;
   const Vec18 v_after = FromWhitened(v_);
@@ -154,12 +154,12 @@ StepSolver::ContactRows StepSolver::MakeContact(const core::WholeBody& wb, const
     J_trunk << d_W, c.p_BP_W.cross(d_W);
     return MakeRow(leg, J_leg, J_trunk);
   };
-  const Vec3 across_W = Tangent(c.n_W), along_W = c.n_W.cross(across_W);
+  const Vec3 tangent1_W = Tangent(c.n_W), tangent2_W = c.n_W.cross(tangent1_W);
   ContactRows rows{along_direction(c.n_W),
-                   along_direction(across_W),
-                   along_direction(along_W),
-                   across_W,
-                   along_W,
+                   along_direction(tangent1_W),
+                   along_direction(tangent2_W),
+                   tangent1_W,
+                   tangent2_W,
                    c.friction};
 
   // Spring and damper at the end of the step: λ = dt (k (s − v dt) − c v), s the compression now.
@@ -175,13 +175,14 @@ StepSolver::ContactRows StepSolver::MakeContact(const core::WholeBody& wb, const
 
   // One step length for both tangents, the largest eigenvalue of their 2x2 block: so that the
   // force of a sliding foot is exactly against its motion.
-  const double a = 1.0 / rows.across.inverse_diagonal, b = 1.0 / rows.along.inverse_diagonal;
+  const double a = 1.0 / rows.tangent1.inverse_diagonal, b = 1.0 / rows.tangent2.inverse_diagonal;
   const double coupling =
-      rows.across.trunk.dot(rows.along.trunk) + rows.across.own.dot(rows.along.own);
+      rows.tangent1.trunk.dot(rows.tangent2.trunk) + rows.tangent1.own.dot(rows.tangent2.own);
   const double largest = 0.5 * (a + b) + std::hypot(0.5 * (a - b), coupling);
   const double softness =
       c.shear_stiffness_N_per_m > 0.0 ? 1.0 / (c.shear_stiffness_N_per_m * dt_s * dt_s) : 0.0;
-  for (const auto& [row, d_W] : {std::pair{&rows.across, &across_W}, {&rows.along, &along_W}}) {
+  for (const auto& [row, d_W] :
+       {std::pair{&rows.tangent1, &tangent1_W}, {&rows.tangent2, &tangent2_W}}) {
     row->softness = softness;
     row->target = softness > 0.0 ? -d_W->dot(c.shear_W) / dt_s : 0.0;
     row->inverse_diagonal = 1.0 / (largest + softness);
@@ -197,7 +198,8 @@ void StepSolver::CollectRows(const core::WholeBody& wb, std::span<const ContactP
   for (const ContactPoint& c : contacts) {
     contacts_.push_back(MakeContact(wb, c, dt_s));
     const ContactRows& rows = contacts_.back();
-    for (const Row* row : {&rows.normal, &rows.across, &rows.along}) Apply(*row, row->impulse, v_);
+    for (const Row* row : {&rows.normal, &rows.tangent1, &rows.tangent2})
+      Apply(*row, row->impulse, v_);
   }
   const Vec3 friction_Ns = dt_s * robot_.config.motors.friction_Nm;
   for (const Leg leg : kLegs) {
@@ -250,20 +252,20 @@ double StepSolver::SolveContact(ContactRows& c) noexcept {
   Apply(n, normal_change, v_);
   n.impulse = normal;
 
-  double across = c.across.impulse + c.across.inverse_diagonal * correction(c.across);
-  double along = c.along.impulse + c.along.inverse_diagonal * correction(c.along);
-  const double size = std::hypot(across, along), limit = c.friction * normal;
+  double tangent1 = c.tangent1.impulse + c.tangent1.inverse_diagonal * correction(c.tangent1);
+  double tangent2 = c.tangent2.impulse + c.tangent2.inverse_diagonal * correction(c.tangent2);
+  const double size = std::hypot(tangent1, tangent2), limit = c.friction * normal;
   if (size > limit) {
-    across *= limit / size;
-    along *= limit / size;
+    tangent1 *= limit / size;
+    tangent2 *= limit / size;
   }
-  const double across_change = across - c.across.impulse, along_change = along - c.along.impulse;
-  Apply(c.across, across_change, v_);
-  Apply(c.along, along_change, v_);
-  c.across.impulse = across;
-  c.along.impulse = along;
+  const double change1 = tangent1 - c.tangent1.impulse, change2 = tangent2 - c.tangent2.impulse;
+  Apply(c.tangent1, change1, v_);
+  Apply(c.tangent2, change2, v_);
+  c.tangent1.impulse = tangent1;
+  c.tangent2.impulse = tangent2;
   return std::max(std::abs(normal_change) / n.inverse_diagonal,
-                  std::hypot(across_change, along_change) / c.across.inverse_diagonal);
+                  std::hypot(change1, change2) / c.tangent1.inverse_diagonal);
 }
 
 double StepSolver::SolveJoint(JointRow& j) noexcept {
@@ -291,7 +293,7 @@ void StepSolver::SumWork(const Vec18& v_before, const Vec18& v_after, const LegA
     work_.joint_J -= dt_s * drag_Nm.dot(qd);
   }
   for (const ContactRows& c : contacts_) {
-    work_.contact_J += of_row(c.normal) + of_row(c.across) + of_row(c.along);
+    work_.contact_J += of_row(c.normal) + of_row(c.tangent1) + of_row(c.tangent2);
   }
   for (const JointRow& j : joints_) work_.joint_J += of_row(j.row);
 }

@@ -90,8 +90,8 @@ class StepSolver {
     double impulse = 0.0;
   };
   struct ContactRows {
-    Row normal, across, along;
-    Vec3 across_W, along_W;  // span the tangent plane
+    Row normal, tangent1, tangent2;
+    Vec3 tangent1_W, tangent2_W;
     double friction = 0.0;
   };
   /// A joint's friction or limit.

@@ -9,7 +9,7 @@
 
 namespace scoria::terrains {
 
-/// What a foot feels: Coulomb friction, and a pressure that grows with sinkage. A sphere that has
+/// What a foot meets: Coulomb friction, and a pressure that grows with sinkage. A sphere that has
 /// sunk by z presses with F = k_s A(z) z, A being the area of its cut at the surface.
 struct Material {
   std::string name = "rock";

@@ -18,11 +18,12 @@ std::string DescribeSource(Leg leg, ContactSource source) {
 }
 
 std::string DescribeTransition(const controller::Transition& t) {
-  const std::string_view watch = core::EnumName(t.watch);
-  return t.fell_back ? fmt::format("{}: falls back on {} (quality {:.2f} below {:.2f}, {:.2f} s)",
-                                   watch, controller::FallbackName(t.watch), t.quality,
-                                   t.least_quality, t.lasted_s)
-                     : fmt::format("{}: comes back (sound for {:.2f} s)", watch, t.lasted_s);
+  const std::string_view monitor = core::EnumName(t.monitor);
+  return t.fell_back
+             ? fmt::format("{}: fallback engaged, {} (quality {:.2f} below {:.2f}, {:.2f} s)",
+                           monitor, controller::FallbackName(t.monitor), t.quality, t.least_quality,
+                           t.lasted_s)
+             : fmt::format("{}: fallback released (sound for {:.2f} s)", monitor, t.lasted_s);
 }
 
 std::string DescribePoorGround(const Place& place) {

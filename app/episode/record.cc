@@ -332,7 +332,7 @@ void Recorder::RecordSlow(const StepRecord& r) {
 void Recorder::OnEvent(const EpisodeEvent& event) {
   const std::string& kind = event.kind;
   Write(RecordedTopics()[kEvent], event.time_s, msg::Event{event.step, kind, event.detail});
-  // What replay needs to go on, and what robots are watched for.
+  // What replay needs to go on, and what a robot's monitors tell.
   const bool worth_keeping =
       kind != "placed" && kind != "poor_ground" && kind != "contact_source" && kind != "payload";
   if (worth_keeping) sink_.MarkFall(ToNanoseconds(event.time_s));

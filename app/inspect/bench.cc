@@ -98,13 +98,13 @@ void BenchModel(const Options& o) {
   std::vector<double> us;
   double sink = 0.0;
   for (int i = 0; i < kCalls; ++i) {
-    const core::Stopwatch watch;
+    const core::Stopwatch stopwatch;
     for (int k = 0; k < kAtOnce; ++k) {
       for (Vec3& qd : state.qd) qd.setConstant(std::sin(kPerCall_rad * (kAtOnce * i + k)));
       model.Calc(state, wb);
       sink += wb.mass_kg;
     }
-    us.push_back(watch.seconds() * kUsPerS / kAtOnce);
+    us.push_back(stopwatch.seconds() * kUsPerS / kAtOnce);
   }
   nlohmann::json json = {{"model", Spread(us)}, {"mass_kg", sink / (kCalls * kAtOnce)}};
   if (o.json) {
@@ -138,7 +138,7 @@ void BenchEstimator(const Options& o) {
   std::vector<double> us;
   double nis = 0.0;
   for (int i = 0; i < kCalls; ++i) {
-    const core::Stopwatch watch;
+    const core::Stopwatch stopwatch;
     for (int k = 0; k < kAtOnce; ++k) {
       const double angle_rad = kPerCall_rad * (kAtOnce * i + k);
       const Vec3 w_S = Vec3::Constant(kTurning_radps * std::sin(angle_rad));
@@ -146,7 +146,7 @@ void BenchEstimator(const Options& o) {
           controller::InekfStatus::kOk)
         nis += filter.Correct(feet).nis;
     }
-    us.push_back(watch.seconds() * kUsPerS / kAtOnce);
+    us.push_back(stopwatch.seconds() * kUsPerS / kAtOnce);
   }
   const nlohmann::json json = {{"estimator", Spread(us)}, {"nis", nis}};
   if (o.json) {
@@ -181,10 +181,10 @@ void BenchPhysics(const Options& o) {
   command.kd_Nms_per_rad = LegArray<Vec3>(Vec3::Constant(kDamping_Nms_per_rad));
   std::vector<double> us;
   for (int i = 0; i < kSteps; ++i) {
-    const core::Stopwatch watch;
+    const core::Stopwatch stopwatch;
     const RobotState& now = world.truth().state;
     world.Step(actuation.Update(command, {now.q, now.qd}, now.qd, scenario.physics.step_s));
-    us.push_back(watch.seconds() * kUsPerS);
+    us.push_back(stopwatch.seconds() * kUsPerS);
   }
   const nlohmann::json json = {{"physics", Spread(us)}};
   if (o.json) {

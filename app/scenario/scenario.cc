@@ -28,7 +28,7 @@ Rates RatesOf(const Scenario& scenario) {
           rates.emplace_back("controller.adaptation.rate_Hz", adaptation.rate_Hz);
       },
       controller.adaptation);
-  if (const auto* sensors = std::get_if<sim::HonestSensors>(&scenario.sensors)) {
+  if (const auto* sensors = std::get_if<sim::RealisticSensors>(&scenario.sensors)) {
     const auto add = [&](const char* sensor, const sim::SamplingParams& sampling) {
       // A rate above that of the physics is one sample in every step.
       if (sampling.rate_Hz * scenario.physics.step_s < 1.0)

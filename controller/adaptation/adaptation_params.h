@@ -11,15 +11,16 @@
 namespace scoria::controller {
 
 /// From what is learned to what gait, MPC and WBC are told.
-struct HandOverParams {
+struct UpdateGateParams {
   double max_sigma_kg = 0.3, max_sigma_kgm = 0.03;
   double rate_kgps = 10.0, rate_kgmps = 1.0;
   double payload_height_m = 0.1;
   double min_trunk_share = 0.3, max_payload_kg = 15.0;
   template <class Archive>
   void Serialize(Archive& a) {
-    a.Field("max_sigma_kg", max_sigma_kg,
-            {.min = 0.0, .max = 100.0, .doc = "a mass less sure than this is not handed over"});
+    a.Field(
+        "max_sigma_kg", max_sigma_kg,
+        {.min = 0.0, .max = 100.0, .doc = "a mass less sure than this does not enter the model"});
     a.Field("max_sigma_kgm", max_sigma_kgm,
             {.min = 0.0, .max = 10.0, .doc = "likewise of mass times offset of the COM"});
     a.Field("rate_kgps", rate_kgps,
@@ -32,7 +33,7 @@ struct HandOverParams {
             {.min = 0.05, .max = 1.0, .doc = "least mass of the trunk over the nominal one"});
     a.Field("max_payload_kg", max_payload_kg, {.min = 0.0, .max = 100.0});
   }
-  bool operator==(const HandOverParams&) const = default;
+  bool operator==(const UpdateGateParams&) const = default;
 };
 
 /// The nominal model for good.
@@ -60,7 +61,7 @@ struct AdaptationKfParams {
   double walk_kg_per_sqrts = 0.2, walk_kgm_per_sqrts = 0.02;
   double force_N = 30.0, moment_Nm = 6.0;
   double initial_kg = 2.0, initial_kgm = 0.2;
-  HandOverParams hand_over;
+  UpdateGateParams update_gate;
   template <class Archive>
   void Serialize(Archive& a) {
     a.Field("rate_Hz", rate_Hz, {.min = 1.0, .max = 1000.0});
@@ -78,7 +79,7 @@ struct AdaptationKfParams {
     a.Field("moment_Nm", moment_Nm, {.min = 1e-3, .max = 1e4});
     a.Field("initial_kg", initial_kg, {.min = 1e-6, .max = 100.0});
     a.Field("initial_kgm", initial_kgm, {.min = 1e-6, .max = 10.0});
-    a.Field("hand_over", hand_over);
+    a.Field("update_gate", update_gate, {.was = "hand_over"});
   }
   bool operator==(const AdaptationKfParams&) const = default;
 };
@@ -90,7 +91,7 @@ struct RlsParams {
   double memory_s = 2.0;
   double force_N = 30.0, moment_Nm = 6.0;
   double initial_kg = 2.0, initial_kgm = 0.2;
-  HandOverParams hand_over;
+  UpdateGateParams update_gate;
   template <class Archive>
   void Serialize(Archive& a) {
     a.Field("rate_Hz", rate_Hz, {.min = 1.0, .max = 1000.0});
@@ -101,7 +102,7 @@ struct RlsParams {
     a.Field("initial_kg", initial_kg,
             {.min = 1e-6, .max = 100.0, .doc = "also the most that forgetting can forget"});
     a.Field("initial_kgm", initial_kgm, {.min = 1e-6, .max = 10.0});
-    a.Field("hand_over", hand_over);
+    a.Field("update_gate", update_gate, {.was = "hand_over"});
   }
   bool operator==(const RlsParams&) const = default;
 };
@@ -162,7 +163,7 @@ struct KfPlusParams {
   double presliding_rad = 0.001;
   StepDetectionParams step;
   TareParams tare;
-  HandOverParams hand_over;
+  UpdateGateParams update_gate;
   template <class Archive>
   void Serialize(Archive& a) {
     a.Field("rate_Hz", rate_Hz, {.min = 1.0, .max = 1000.0});
@@ -185,7 +186,7 @@ struct KfPlusParams {
          .doc = "a joint at rest keeps its friction until it has turned so far; 0: it loses it"});
     a.Field("step", step);
     a.Field("tare", tare);
-    a.Field("hand_over", hand_over);
+    a.Field("update_gate", update_gate, {.was = "hand_over"});
   }
   bool operator==(const KfPlusParams&) const = default;
 };

@@ -27,13 +27,13 @@ AdaptationKf::AdaptationKf(const AdaptationKfParams& params, const core::RobotDe
       robot_(robot),
       gravity_mps2_(gravity_mps2),
       model_(robot, gravity_mps2),
-      hand_over_(params.hand_over, robot) {
+      update_gate_(params.update_gate, robot) {
   model_.Calc({}, wb_);
   const Vec3 c = wb_.p_WC - wb_.state.p_WB;
   filter_.pi = wb_.mass_kg * Vec3(1.0, c.x(), c.y());
   const Vec3 sigma(params.initial_kg, params.initial_kgm, params.initial_kgm);
   filter_.P = sigma.cwiseAbs2().asDiagonal();
-  out_ = hand_over_.Update(Vec3::Zero(), filter_.P, wb_, 0.0);
+  out_ = update_gate_.Update(Vec3::Zero(), filter_.P, wb_, 0.0);
   out_.tared = true;
 }
 
@@ -73,7 +73,7 @@ void AdaptationKf::Correct(const AdapterInput& in, double dt_s) noexcept {
 }
 
 void AdaptationKf::Continue(const core::ModelParameters& in_use) noexcept {
-  filter_.pi += hand_over_.Continue(in_use);
+  filter_.pi += update_gate_.Continue(in_use);
   out_.parameters = in_use;
 }
 
@@ -91,7 +91,7 @@ const Adaptation& AdaptationKf::Update(const AdapterInput& in) noexcept {
   Correct(in, dt_s);
   const Vec3 c = wb_.state.R_WB.transpose() * wb_.p_WC;
   const Vec3 nominal = wb_.mass_kg * Vec3(1.0, c.x(), c.y());
-  out_ = hand_over_.Update(filter_.pi - nominal, filter_.P, wb_, dt_s);
+  out_ = update_gate_.Update(filter_.pi - nominal, filter_.P, wb_, dt_s);
   out_.tared = true;
   return out_;
 }

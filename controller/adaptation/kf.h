@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "controller/adaptation/hand_over.h"
 #include "controller/adaptation/model_adapter.h"
+#include "controller/adaptation/model_update_gate.h"
 
 namespace scoria::controller {
 
@@ -46,7 +46,7 @@ class AdaptationKf final : public ModelAdapter {
   core::WholeBodyModel model_;
   core::WholeBody wb_;
   MassKalmanFilter filter_;
-  HandOver hand_over_;
+  ModelUpdateGate update_gate_;
   Adaptation out_;
   double since_s_ = 0.0;
 };

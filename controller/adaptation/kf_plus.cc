@@ -41,13 +41,13 @@ bool StepDetector::Update(const Vec3& error, double dt_s) noexcept {
 AdaptationKfPlus::AdaptationKfPlus(const KfPlusParams& params, const core::RobotDescription& robot,
                                    double gravity_mps2, const ObserverParams& observer) noexcept
     : params_(params),
-      balance_({gravity_mps2, params.hand_over.payload_height_m, params.presliding_rad, observer},
+      balance_({gravity_mps2, params.update_gate.payload_height_m, params.presliding_rad, observer},
                robot),
       tare_(params.tare),
       detector_(params.step),
-      hand_over_(params.hand_over, robot) {
+      update_gate_(params.update_gate, robot) {
   filter_.P = OpenCovariance();
-  out_ = hand_over_.Update(filter_.pi, filter_.P, balance_.nominal(), 0.0);
+  out_ = update_gate_.Update(filter_.pi, filter_.P, balance_.nominal(), 0.0);
   out_.tared = tare_.done();
 }
 
@@ -76,12 +76,12 @@ void AdaptationKfPlus::Correct(const WrenchSample& sample, double dt_s) noexcept
   const Vec3 walk(params_.walk_kg_per_sqrts, params_.walk_kgm_per_sqrts,
                   params_.walk_kgm_per_sqrts);
   filter_.Update(sample.Y, excess, dt_s * walk.cwiseAbs2(), R);
-  filter_.pi = hand_over_.Clamp(filter_.pi);
+  filter_.pi = update_gate_.Clamp(filter_.pi);
 }
 
 /// What is carried already is no tare.
 void AdaptationKfPlus::Continue(const core::ModelParameters& in_use) noexcept {
-  filter_.pi = hand_over_.Continue(in_use);
+  filter_.pi = update_gate_.Continue(in_use);
   tare_ = Tare({.enabled = false});
   out_.parameters = in_use;
 }
@@ -108,7 +108,7 @@ const Adaptation& AdaptationKfPlus::Update(const AdapterInput& in) noexcept {
   } else if (weighs) {
     Correct(sample, dt_s);
   }
-  out_ = hand_over_.Update(filter_.pi, filter_.P, balance_.nominal(), dt_s);
+  out_ = update_gate_.Update(filter_.pi, filter_.P, balance_.nominal(), dt_s);
   out_.tared = tare_.done();
   return out_;
 }

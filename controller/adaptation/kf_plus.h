@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "controller/adaptation/hand_over.h"
 #include "controller/adaptation/kf.h"
 #include "controller/adaptation/model_adapter.h"
+#include "controller/adaptation/model_update_gate.h"
 #include "controller/adaptation/wrench_balance.h"
 
 namespace scoria::controller {
@@ -66,7 +66,7 @@ class AdaptationKfPlus final : public ModelAdapter {
   Tare tare_;
   StepDetector detector_;
   MassKalmanFilter filter_;
-  HandOver hand_over_;
+  ModelUpdateGate update_gate_;
   Adaptation out_;
   double since_s_ = 0.0, at_work_s_ = 0.0;
 };

@@ -29,7 +29,7 @@ struct Adaptation {
   core::ModelParameters parameters;  // of the trunk, for gait, MPC and WBC: justified and smooth
   bool changed = false;              // `parameters` is not the last call's
   bool tared = false;                // the readings at the known mass were taken, or none asked for
-  double quality = 0.0;              // 0..1: how sure, against what the hand-over asks for
+  double quality = 0.0;              // 0..1: how sure, against what the update gate asks for
   bool operator==(const Adaptation&) const = default;
 };
 

@@ -25,14 +25,14 @@ RecursiveLeastSquares::RecursiveLeastSquares(const RlsParams& params,
                                              double gravity_mps2,
                                              const ObserverParams& observer) noexcept
     : params_(params),
-      balance_({gravity_mps2, params.hand_over.payload_height_m, 0.0, observer}, robot),
-      hand_over_(params.hand_over, robot) {
+      balance_({gravity_mps2, params.update_gate.payload_height_m, 0.0, observer}, robot),
+      update_gate_(params.update_gate, robot) {
   const core::WholeBody& wb = balance_.nominal();
   const Vec3 c = wb.p_WC - wb.state.p_WB;
   filter_.pi = wb.mass_kg * Vec3(1.0, c.x(), c.y());
   const Vec3 sigma(params.initial_kg, params.initial_kgm, params.initial_kgm);
   filter_.information = sigma.cwiseAbs2().cwiseInverse().asDiagonal();
-  out_ = hand_over_.Update(Vec3::Zero(), filter_.P(), wb, 0.0);
+  out_ = update_gate_.Update(Vec3::Zero(), filter_.P(), wb, 0.0);
   out_.tared = true;
 }
 
@@ -53,7 +53,7 @@ void RecursiveLeastSquares::Correct(const WrenchSample& sample, double dt_s) noe
 }
 
 void RecursiveLeastSquares::Continue(const core::ModelParameters& in_use) noexcept {
-  filter_.pi += hand_over_.Continue(in_use);
+  filter_.pi += update_gate_.Continue(in_use);
   out_.parameters = in_use;
 }
 
@@ -73,7 +73,7 @@ const Adaptation& RecursiveLeastSquares::Update(const AdapterInput& in) noexcept
   const core::WholeBody& wb = balance_.nominal();
   const Vec3 c = wb.state.R_WB.transpose() * (wb.p_WC - wb.state.p_WB);
   const Vec3 nominal = wb.mass_kg * Vec3(1.0, c.x(), c.y());
-  out_ = hand_over_.Update(filter_.pi - nominal, filter_.P(), wb, dt_s);
+  out_ = update_gate_.Update(filter_.pi - nominal, filter_.P(), wb, dt_s);
   out_.tared = true;
   return out_;
 }

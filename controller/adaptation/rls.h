@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "controller/adaptation/hand_over.h"
 #include "controller/adaptation/model_adapter.h"
+#include "controller/adaptation/model_update_gate.h"
 #include "controller/adaptation/wrench_balance.h"
 
 namespace scoria::controller {
@@ -43,7 +43,7 @@ class RecursiveLeastSquares final : public ModelAdapter {
   RlsParams params_;
   WrenchBalance balance_;
   ForgettingLeastSquares filter_;
-  HandOver hand_over_;
+  ModelUpdateGate update_gate_;
   Adaptation out_;
   double since_s_ = 0.0;
 };

@@ -106,21 +106,21 @@ bool SensorHealth::SurelyUp(const HealthInput& in) const noexcept {
   return !in.observer && in.probability < 1.0 - params_.sure;
 }
 
-bool SensorHealth::Contradicts(const HealthInput& in) noexcept {
+bool SensorHealth::Disagrees(const HealthInput& in) noexcept {
   const bool in_transition = since_observer_s_ <= params_.transition_s;
   const bool flying = in.foot_speed_mps > params_.moving_mps;
-  const bool contradicts = in.sensor ? SurelyUp(in) || flying : SurelyDown(in) && !flying;
-  if (!in_transition && contradicts) {
-    contradiction_s_ += step_s_;
+  const bool disagrees = in.sensor ? SurelyUp(in) || flying : SurelyDown(in) && !flying;
+  if (!in_transition && disagrees) {
+    disagreement_s_ += step_s_;
   } else if (in.sensor == in.observer) {
-    contradiction_s_ = std::max(0.0, contradiction_s_ - params_.forgive * step_s_);
+    disagreement_s_ = std::max(0.0, disagreement_s_ - params_.forgive * step_s_);
   }
-  return contradiction_s_ > params_.disagree_s;
+  return disagreement_s_ > params_.disagree_s;
 }
 
 bool SensorHealth::Mismatches(const HealthInput& in) noexcept {
   const bool settled = since_observer_s_ > params_.transition_s;
-  // A sensor that is not believed must come back to what it was.
+  // A sensor that is not believed must read again as it did.
   const bool learn = healthy_ && !IsSaturated(in);
   return !match_.Update(
       {in.raw_counts, in.force_N, settled && SurelyUp(in), settled && SurelyDown(in), learn});
@@ -150,20 +150,20 @@ bool SensorHealth::Update(const HealthInput& in) noexcept {
   TrackTransitions(in);
   const bool stuck = IsStuck(in);
   const bool drifted = HasDrifted(in);
-  const bool contradicts = Contradicts(in);
+  const bool disagrees = Disagrees(in);
   const bool mismatches = Mismatches(in);
-  if (stuck || drifted || contradicts || mismatches) {
+  if (stuck || drifted || disagrees || mismatches) {
     healthy_ = false;
     faultless_s_ = 0.0;
     transitions_ = 0;
-    contradiction_s_ = std::min(contradiction_s_, params_.disagree_s + step_s_);
+    disagreement_s_ = std::min(disagreement_s_, params_.disagree_s + step_s_);
     return healthy_;
   }
   faultless_s_ += step_s_;
   if (!healthy_ && faultless_s_ >= params_.recover_s &&
       transitions_ >= params_.recover_transitions) {
     healthy_ = true;
-    contradiction_s_ = 0.0;
+    disagreement_s_ = 0.0;
   }
   return healthy_;
 }

@@ -130,19 +130,19 @@ struct HealthParams {
             {.min = 0.0,
              .max = 0.5,
              .doc = "around touchdown and lift-off sensor and observer may differ"});
-    a.Field(
-        "sure", sure,
-        {.min = 0.5,
-         .max = 1.0,
-         .doc = "the observer contradicts only when its probability is beyond this, or below 1 - "
-                "this"});
+    a.Field("sure", sure,
+            {.min = 0.5,
+             .max = 1.0,
+             .doc = "the observer disagrees only when its probability is beyond this, or below 1 - "
+                    "this"});
     a.Field("moving_mps", moving_mps,
             {.min = 0.0, .max = 100.0, .doc = "a foot faster than this is not on the ground"});
     a.Field(
         "disagree_s", disagree_s,
-        {.min = 0.0, .max = 10.0, .doc = "contradiction, summed up, that discredits the sensor"});
-    a.Field("forgive", forgive,
-            {.min = 0.0, .max = 10.0, .doc = "contradiction taken back, per time in agreement"});
+        {.min = 0.0, .max = 10.0, .doc = "disagreement, summed up, that discredits the sensor"});
+    a.Field(
+        "forgive", forgive,
+        {.min = 0.0, .max = 10.0, .doc = "disagreement that is forgotten per time in agreement"});
     a.Field("drift_counts", drift_counts,
             {.min = 0.0,
              .max = 1e5,
@@ -180,7 +180,7 @@ class SensorHealth {
  private:
   [[nodiscard]] bool IsStuck(const HealthInput& in) noexcept;
   [[nodiscard]] bool HasDrifted(const HealthInput& in) noexcept;
-  [[nodiscard]] bool Contradicts(const HealthInput& in) noexcept;
+  [[nodiscard]] bool Disagrees(const HealthInput& in) noexcept;
   [[nodiscard]] bool Mismatches(const HealthInput& in) noexcept;
   [[nodiscard]] bool IsSaturated(const HealthInput& in) const noexcept;
   [[nodiscard]] bool SurelyDown(const HealthInput& in) const noexcept;
@@ -196,7 +196,7 @@ class SensorHealth {
   std::optional<double> first_zero_;
   bool sensor_ = false, observer_ = false;  // of the last tick
   double since_sensor_s_ = kLongAgo_s, since_observer_s_ = kLongAgo_s;
-  double contradiction_s_ = 0.0;
+  double disagreement_s_ = 0.0;
   ForceMatch match_;
   int transitions_ = 0;
   double faultless_s_ = 0.0;

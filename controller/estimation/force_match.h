@@ -66,7 +66,7 @@ struct ForceMatchInput {
 /// and follows slow drift. A jump upwards shows at once, on the ground too, where the word
 /// "contact" is still right: its force less the tolerance is summed up. Counts that mean less are
 /// not judged: either contact is still told right, or it is not, which SensorHealth sees; and the
-/// observer of a nearly stretched leg may feel 40 N too much.
+/// observer of a nearly stretched leg may find 40 N too much.
 /// The sensor's dead band is left to gain and tolerance.
 /// Source: [Page1954], cumulative sum; differs: the deviation is capped.
 class ForceMatch {

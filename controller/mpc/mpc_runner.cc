@@ -35,9 +35,9 @@ MpcRunner::~MpcRunner() {
 
 void MpcRunner::Solve(std::int64_t tick) noexcept {
   Job& job = jobs_[Slot(tick)];
-  const core::Stopwatch watch;
+  const core::Stopwatch stopwatch;
   job.result.mpc = mpc_.Solve(job.input);
-  job.result.solve_s = watch.seconds();
+  job.result.solve_s = stopwatch.seconds();
   job.result.tick = tick;
 }
 

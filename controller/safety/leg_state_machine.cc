@@ -26,18 +26,19 @@ bool IsWaiting(LegMode mode) noexcept {
 
 }  // namespace
 
-LegMode LegStateMachine::Next(LegMode mode, bool planned_stance, const Felt& felt) const noexcept {
+LegMode LegStateMachine::Next(LegMode mode, bool planned_stance,
+                              const Sensed& sensed) const noexcept {
   if (planned_stance) {
-    if (IsSwing(mode) && !felt.touching) return InTheAir(params_.late_contact);
-    if (IsWaiting(mode) && !felt.touching) return mode;
-    if (mode == LegMode::kStance && felt.lost) return InTheAir(params_.lost_contact);
+    if (IsSwing(mode) && !sensed.touching) return InTheAir(params_.late_contact);
+    if (IsWaiting(mode) && !sensed.touching) return mode;
+    if (mode == LegMode::kStance && sensed.lost) return InTheAir(params_.lost_contact);
     return LegMode::kStance;
   }
   if (mode == LegMode::kEarlyContact) return mode;
   if (!IsSwing(mode)) return LegMode::kSwing;
-  if (params_.early_contact && felt.touching && felt.progress > params_.early_contact_after)
+  if (params_.early_contact && sensed.touching && sensed.progress > params_.early_contact_after)
     return LegMode::kEarlyContact;
-  if (params_.stumble_reflex && felt.touching && felt.progress > params_.stumble_after)
+  if (params_.stumble_reflex && sensed.touching && sensed.progress > params_.stumble_after)
     return LegMode::kStumble;
   return mode;
 }

@@ -48,9 +48,9 @@ struct LegStateParams {
   bool operator==(const LegStateParams&) const = default;
 };
 
-/// Corrects the planned contacts by the felt ones. `air` below is kLowering or kHolding as
+/// Corrects the planned contacts by the sensed ones. `air` below is kLowering or kHolding as
 /// late_contact says, or kStance if it says so; likewise for a foot whose contact is lost.
-///   from            planned  felt                                 to
+///   from            planned  sensed                               to
 ///   swing, stumble  stance   touching                             stance
 ///   swing, stumble  stance   in the air                           air
 ///   swing           swing    touching, beyond early_contact_after early contact
@@ -72,11 +72,12 @@ class LegStateMachine {
   void set_params(const LegStateParams& params) noexcept { params_ = params; }
 
  private:
-  struct Felt {
+  struct Sensed {
     bool touching, lost;
     double progress;
   };
-  [[nodiscard]] LegMode Next(LegMode mode, bool planned_stance, const Felt& felt) const noexcept;
+  [[nodiscard]] LegMode Next(LegMode mode, bool planned_stance,
+                             const Sensed& sensed) const noexcept;
 
   LegStateParams params_;
   LegPhases legs_;

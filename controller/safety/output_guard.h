@@ -36,8 +36,9 @@ struct SafetyParams {
         "working_range_rad", working_range_rad,
         {.min = 0.1,
          .max = 10.0,
-         .doc = "HAA, HFE, KFE: joints are also turned back so far from the standing pose, lest a "
-                "leg folds through to where it cannot walk"});
+         .doc =
+             "HAA, HFE, KFE: joints are also turned back so far from the standing pose, so that no "
+             "leg folds through to where it cannot walk"});
     a.Field("joint_limit_Nm_per_rad", joint_limit_Nm_per_rad, {.min = 0.0, .max = 1e4});
     a.Field("joint_limit_Nms_per_rad", joint_limit_Nms_per_rad, {.min = 0.0, .max = 100.0});
   }

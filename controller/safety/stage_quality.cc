@@ -26,39 +26,39 @@ double StageQuality::CalcEstimator(const StageReports& in, double dt_s) noexcept
   core::LowPass(mean_v_W_, in.v_W, window_s, dt_s);
   core::LowPass(mean_a_W_, in.a_W, window_s, dt_s);
   const Vec3 by_speed = (in.v_W - mean_v_W_) / window_s;  // low pass of its derivative
-  contradiction_W_ = mean_a_W_ - by_speed;
-  const double by_acceleration = 1.0 - contradiction_W_.norm() / params_.acceleration_mps2;
+  acceleration_residual_W_ = mean_a_W_ - by_speed;
+  const double by_acceleration = 1.0 - acceleration_residual_W_.norm() / params_.acceleration_mps2;
   return std::clamp(by_acceleration, 0.0, 1.0 / std::max(1.0, nis_ratio_));
 }
 
 double StageQuality::CalcFooting(const StageReports& in, double dt_s) noexcept {
-  double mishaps = static_cast<double>(in.slips - slips_);
+  double stumbles = static_cast<double>(in.slips - slips_);
   slips_ = in.slips;
   for (const Leg leg : kLegs) {
     const bool swings = Swings(in.legs, leg);
     const bool held_up = swings && in.contact[leg] && in.foot_lag_m[leg] > params_.stumble_m;
-    if (held_up && !stumbled_[leg]) mishaps += 1.0;
+    if (held_up && !stumbled_[leg]) stumbles += 1.0;
     stumbled_[leg] = swings && (stumbled_[leg] || held_up);
   }
-  mishaps_ += mishaps;
-  core::LowPass(mishaps_, 0.0, params_.footing_window_s, dt_s);
-  const double by_mishaps = 1.0 - mishaps_ / params_.mishaps;
+  stumbles_ += stumbles;
+  core::LowPass(stumbles_, 0.0, params_.footing_window_s, dt_s);
+  const double by_stumbles = 1.0 - stumbles_ / params_.stumbles;
   const double by_tilt = 1.0 - in.tilt_error_rad / params_.tilt_rad;
-  return std::max(0.0, std::min(by_mishaps, by_tilt));
+  return std::max(0.0, std::min(by_stumbles, by_tilt));
 }
 
 const Qualities& StageQuality::Update(const StageReports& in, double dt_s) noexcept {
   core::LowPass(answered_, in.body_answered ? 1.0 : 0.0, params_.body_window_s, dt_s);
   core::LowPass(spare_, in.torque_spent ? 0.0 : 1.0, params_.load_window_s, dt_s);
-  const auto set = [&](Watch watch, double quality) {
-    qualities_[static_cast<std::size_t>(watch)] = quality;
+  const auto set = [&](Monitor monitor, double quality) {
+    qualities_[static_cast<std::size_t>(monitor)] = quality;
   };
-  set(Watch::kMpc, std::max(0.0, 1.0 - in.plan_age_share));
-  set(Watch::kBody, answered_);
-  set(Watch::kEstimator, CalcEstimator(in, dt_s));
-  set(Watch::kContact, in.sound_feet_share);
-  set(Watch::kFooting, CalcFooting(in, dt_s));
-  set(Watch::kLoad, spare_);
+  set(Monitor::kMpc, std::max(0.0, 1.0 - in.plan_age_share));
+  set(Monitor::kBody, answered_);
+  set(Monitor::kEstimator, CalcEstimator(in, dt_s));
+  set(Monitor::kContact, in.sound_feet_share);
+  set(Monitor::kFooting, CalcFooting(in, dt_s));
+  set(Monitor::kLoad, spare_);
   return qualities_;
 }
 

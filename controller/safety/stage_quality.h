@@ -15,7 +15,7 @@ struct QualityParams {
   double acceleration_window_s = 0.5, acceleration_mps2 = 1.5;
   double load_window_s = 0.5;
   double footing_window_s = 2.0;
-  double mishaps = 3.0, stumble_m = 0.04;
+  double stumbles = 3.0, stumble_m = 0.04;
   double tilt_rad = 0.25;
   template <class Archive>
   void Serialize(Archive& a) {
@@ -30,8 +30,11 @@ struct QualityParams {
     a.Field("load_window_s", load_window_s, {.min = 0.0, .max = 10.0, .doc = "low pass"});
     a.Field("footing_window_s", footing_window_s,
             {.min = 0.01, .max = 60.0, .doc = "over which slips and stumbles are forgotten"});
-    a.Field("mishaps", mishaps,
-            {.min = 0.1, .max = 1e4, .doc = "slips and stumbles in it that leave no quality"});
+    a.Field("stumbles", stumbles,
+            {.min = 0.1,
+             .max = 1e4,
+             .doc = "slips and stumbles in it that leave no quality",
+             .was = "mishaps"});
     a.Field("stumble_m", stumble_m,
             {.min = 0.0,
              .max = 1.0,
@@ -55,7 +58,7 @@ struct StageReports {
   double tilt_error_rad = 0.0;                  // of the trunk, against the reference
   std::uint64_t slips = 0;                      // since the start
   const LegPhases& legs;
-  const LegArray<bool>& contact;  // felt
+  const LegArray<bool>& contact;  // sensed
   LegArray<double> foot_lag_m;    // from where a swing foot should be
 };
 
@@ -67,7 +70,9 @@ class StageQuality {
   [[nodiscard]] const Qualities& qualities() const noexcept { return qualities_; }
   /// Acceleration by the accelerometer less that of the estimated speed, both low-passed, m/s², in
   /// W.
-  [[nodiscard]] const Vec3& contradiction_W() const noexcept { return contradiction_W_; }
+  [[nodiscard]] const Vec3& acceleration_residual_W() const noexcept {
+    return acceleration_residual_W_;
+  }
   void set_params(const QualityParams& params) noexcept { params_ = params; }
 
  private:
@@ -76,8 +81,8 @@ class StageQuality {
 
   QualityParams params_;
   Qualities qualities_{1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
-  double answered_ = 1.0, nis_ratio_ = 1.0, spare_ = 1.0, mishaps_ = 0.0;
-  Vec3 mean_v_W_ = Vec3::Zero(), mean_a_W_ = Vec3::Zero(), contradiction_W_ = Vec3::Zero();
+  double answered_ = 1.0, nis_ratio_ = 1.0, spare_ = 1.0, stumbles_ = 0.0;
+  Vec3 mean_v_W_ = Vec3::Zero(), mean_a_W_ = Vec3::Zero(), acceleration_residual_W_ = Vec3::Zero();
   bool started_ = false;
   std::uint64_t slips_ = 0;
   LegArray<bool> stumbled_;  // in this swing

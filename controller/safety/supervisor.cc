@@ -12,52 +12,52 @@ double Ramp(double from, bool up, double step) noexcept {
 
 }  // namespace
 
-std::string_view FallbackName(Watch watch) noexcept {
-  switch (watch) {
-    case Watch::kMpc:
+std::string_view FallbackName(Monitor monitor) noexcept {
+  switch (monitor) {
+    case Monitor::kMpc:
       return "equal forces";
-    case Watch::kBody:
+    case Monitor::kBody:
       return "inverse dynamics";
-    case Watch::kEstimator:
+    case Monitor::kEstimator:
       return "gravity, wide covariances";
-    case Watch::kContact:
+    case Monitor::kContact:
       return "the hierarchy";
-    case Watch::kFooting:
+    case Monitor::kFooting:
       return "careful walking";
-    case Watch::kLoad:
+    case Monitor::kLoad:
       break;
   }
   return "standing, crouched";
 }
 
-const WatchParams& Supervisor::ParamsOf(Watch watch) const noexcept {
-  switch (watch) {
-    case Watch::kMpc:
+const MonitorParams& Supervisor::ParamsOf(Monitor monitor) const noexcept {
+  switch (monitor) {
+    case Monitor::kMpc:
       return params_.mpc;
-    case Watch::kBody:
+    case Monitor::kBody:
       return params_.body;
-    case Watch::kEstimator:
+    case Monitor::kEstimator:
       return params_.estimator;
-    case Watch::kContact:
+    case Monitor::kContact:
       return params_.contact;
-    case Watch::kFooting:
+    case Monitor::kFooting:
       return params_.footing;
-    case Watch::kLoad:
+    case Monitor::kLoad:
       break;
   }
   return params_.load;
 }
 
-void Supervisor::Note(Watch watch, const State& state, double quality) noexcept {
-  transitions_.list[transitions_.count++] = {watch, state.fallen_back, quality,
-                                             ParamsOf(watch).least_quality,
+void Supervisor::Note(Monitor monitor, const State& state, double quality) noexcept {
+  transitions_.list[transitions_.count++] = {monitor, state.fallen_back, quality,
+                                             ParamsOf(monitor).least_quality,
                                              state.fallen_back ? state.unsound_s : state.sound_s};
 }
 
-/// Unsound time adds up and is taken back by sound time; sound time must be without a break.
-void Supervisor::UpdateWatch(Watch watch, double quality, double dt_s) noexcept {
-  const WatchParams& params = ParamsOf(watch);
-  State& state = states_[static_cast<std::size_t>(watch)];
+/// Unsound time adds up and sound time takes from it; sound time must be without a break.
+void Supervisor::UpdateMonitor(Monitor monitor, double quality, double dt_s) noexcept {
+  const MonitorParams& params = ParamsOf(monitor);
+  State& state = states_[static_cast<std::size_t>(monitor)];
   const bool on = params_.enabled && params.enabled;
   const bool sound = quality >= params.least_quality;  // false also if not a number
   state.unsound_s = std::max(0.0, state.unsound_s + (sound ? -dt_s : dt_s));
@@ -71,16 +71,16 @@ void Supervisor::UpdateWatch(Watch watch, double quality, double dt_s) noexcept 
   } else {
     state.fallen_back = !sound && state.unsound_s > params.after_s;
   }
-  if (state.fallen_back != before) Note(watch, state, quality);
+  if (state.fallen_back != before) Note(monitor, state, quality);
 }
 
 void Supervisor::Update(const Qualities& qualities, double dt_s) noexcept {
   transitions_.count = 0;
-  for (std::size_t i = 0; i < kNumWatches; ++i)
-    UpdateWatch(static_cast<Watch>(i), qualities[i], dt_s);
+  for (std::size_t i = 0; i < kNumMonitors; ++i)
+    UpdateMonitor(static_cast<Monitor>(i), qualities[i], dt_s);
   const double step = params_.ramp_s > dt_s ? dt_s / params_.ramp_s : 1.0;
-  care_ = Ramp(care_, HasFallenBack(Watch::kFooting), step);
-  crouch_ = Ramp(crouch_, HasFallenBack(Watch::kLoad), step);
+  care_ = Ramp(care_, HasFallenBack(Monitor::kFooting), step);
+  crouch_ = Ramp(crouch_, HasFallenBack(Monitor::kLoad), step);
 }
 
 Command Supervisor::Temper(const Command& command, double nominal_height_m) const noexcept {

@@ -12,25 +12,25 @@
 namespace scoria::controller {
 
 /// What can fail, and what the controller does then until it is sound again.
-enum class Watch { kMpc, kBody, kEstimator, kContact, kFooting, kLoad };
-constexpr std::array<std::pair<Watch, std::string_view>, 6> EnumNames(Watch) {
-  return {{{Watch::kMpc, "mpc"},
-           {Watch::kBody, "body"},
-           {Watch::kEstimator, "estimator"},
-           {Watch::kContact, "contact"},
-           {Watch::kFooting, "footing"},
-           {Watch::kLoad, "load"}}};
+enum class Monitor { kMpc, kBody, kEstimator, kContact, kFooting, kLoad };
+constexpr std::array<std::pair<Monitor, std::string_view>, 6> EnumNames(Monitor) {
+  return {{{Monitor::kMpc, "mpc"},
+           {Monitor::kBody, "body"},
+           {Monitor::kEstimator, "estimator"},
+           {Monitor::kContact, "contact"},
+           {Monitor::kFooting, "footing"},
+           {Monitor::kLoad, "load"}}};
 }
-inline constexpr std::size_t kNumWatches = EnumNames(Watch{}).size();
+inline constexpr std::size_t kNumMonitors = EnumNames(Monitor{}).size();
 
-/// What stands in for a stage that was given up.
-[[nodiscard]] std::string_view FallbackName(Watch watch) noexcept;
+/// What stands in for a stage that is unsound.
+[[nodiscard]] std::string_view FallbackName(Monitor monitor) noexcept;
 
-/// How good each stage is by its own word: 1 as designed, 0 of no use.
-using Qualities = std::array<double, kNumWatches>;
+/// How good each stage is by its own report: 1 as designed, 0 of no use.
+using Qualities = std::array<double, kNumMonitors>;
 
-/// When one stage is given up, and when it is taken back.
-struct WatchParams {
+/// When the fallback of one stage is engaged, and when it is released.
+struct MonitorParams {
   bool enabled = true;
   double least_quality = 0.5;
   double after_s = 0.1, recover_s = 1.0;
@@ -40,24 +40,24 @@ struct WatchParams {
     a.Field("least_quality", least_quality,
             {.min = 0.0, .max = 1.0, .doc = "what is worse counts as unsound"});
     a.Field("after_s", after_s,
-            {.min = 0.0, .max = 60.0, .doc = "unsound for so long on balance: falls back"});
+            {.min = 0.0, .max = 60.0, .doc = "unsound for so long on balance: engaged"});
     a.Field("recover_s", recover_s,
-            {.min = 0.0, .max = 600.0, .doc = "sound for so long without a break: comes back"});
+            {.min = 0.0, .max = 600.0, .doc = "sound for so long without a break: released"});
   }
-  bool operator==(const WatchParams&) const = default;
+  bool operator==(const MonitorParams&) const = default;
 };
 
 struct SupervisorParams {
   bool enabled = true;
-  WatchParams mpc{.least_quality = 0.01, .after_s = 0.0, .recover_s = 0.05};
-  WatchParams body{.least_quality = 0.1, .after_s = 0.02, .recover_s = 0.2};
-  WatchParams estimator{.least_quality = 0.8, .after_s = 0.12, .recover_s = 2.0};
-  WatchParams contact{.least_quality = 0.99, .after_s = 0.05, .recover_s = 3.0};
-  WatchParams footing{.least_quality = 0.3, .after_s = 0.15, .recover_s = 4.0};
-  WatchParams load{.least_quality = 0.85, .after_s = 1.0, .recover_s = 5.0};
+  MonitorParams mpc{.least_quality = 0.01, .after_s = 0.0, .recover_s = 0.05};
+  MonitorParams body{.least_quality = 0.1, .after_s = 0.02, .recover_s = 0.2};
+  MonitorParams estimator{.least_quality = 0.8, .after_s = 0.12, .recover_s = 2.0};
+  MonitorParams contact{.least_quality = 0.99, .after_s = 0.05, .recover_s = 3.0};
+  MonitorParams footing{.least_quality = 0.3, .after_s = 0.15, .recover_s = 4.0};
+  MonitorParams load{.least_quality = 0.85, .after_s = 1.0, .recover_s = 5.0};
   double careful_speed_share = 0.6, careful_duty = 0.75, careful_lift_m = 0.02;
   double crouch_share = 0.9;
-  double doubt = 15.0;
+  double covariance_scale = 15.0;
   double ramp_s = 1.0;
   template <class Archive>
   void Serialize(Archive& a) {
@@ -82,29 +82,32 @@ struct SupervisorParams {
             {.min = 0.0, .max = 0.3, .doc = "added to the swing's apex"});
     a.Field("crouch_share", crouch_share,
             {.min = 0.3, .max = 1.0, .doc = "of the height, when the load is too much"});
-    a.Field("doubt", doubt,
-            {.min = 1.0, .max = 1e3, .doc = "times that a re-initialised estimate is less sure"});
+    a.Field("covariance_scale", covariance_scale,
+            {.min = 1.0,
+             .max = 1e3,
+             .doc = "of the standard deviations of a re-initialised estimate",
+             .was = "doubt"});
     a.Field("ramp_s", ramp_s, {.min = 0.0, .max = 10.0, .doc = "from one way to walk to another"});
   }
   bool operator==(const SupervisorParams&) const = default;
 };
 
-/// One stage given up or taken back, and why.
+/// A fallback engaged or released, and why.
 struct Transition {
-  Watch watch = Watch::kMpc;
-  bool fell_back = true;     // false: came back
+  Monitor monitor = Monitor::kMpc;
+  bool fell_back = true;     // engaged; false: released
   double quality = 1.0;      // now
   double least_quality = 0;  // that was asked for
   double lasted_s = 0.0;     // unsound, or sound
 };
-/// What happened in one tick; at most one transition per watch.
+/// What happened in one tick; at most one transition per monitor.
 struct Transitions {
-  std::array<Transition, kNumWatches> list;
+  std::array<Transition, kNumMonitors> list;
   std::size_t count = 0;
 };
 
-/// Gives stages up when they report themselves unsound, and takes them back when they are sound.
-/// Every watch is the same mechanism; what a fallback is, the controller knows.
+/// Engages the fallback of a stage that reports itself unsound, and releases it when it is sound.
+/// Every monitor is the same mechanism; what a fallback is, the controller knows.
 /// Neither throws nor allocates.
 class Supervisor {
  public:
@@ -112,8 +115,8 @@ class Supervisor {
 
   void Update(const Qualities& qualities, double dt_s) noexcept;
 
-  [[nodiscard]] bool HasFallenBack(Watch watch) const noexcept {
-    return states_[static_cast<std::size_t>(watch)].fallen_back;
+  [[nodiscard]] bool HasFallenBack(Monitor monitor) const noexcept {
+    return states_[static_cast<std::size_t>(monitor)].fallen_back;
   }
   /// Of the last Update.
   [[nodiscard]] const Transitions& transitions() const noexcept { return transitions_; }
@@ -132,12 +135,12 @@ class Supervisor {
     bool fallen_back = false;
     double unsound_s = 0.0, sound_s = 0.0;
   };
-  [[nodiscard]] const WatchParams& ParamsOf(Watch watch) const noexcept;
-  void UpdateWatch(Watch watch, double quality, double dt_s) noexcept;
-  void Note(Watch watch, const State& state, double quality) noexcept;
+  [[nodiscard]] const MonitorParams& ParamsOf(Monitor monitor) const noexcept;
+  void UpdateMonitor(Monitor monitor, double quality, double dt_s) noexcept;
+  void Note(Monitor monitor, const State& state, double quality) noexcept;
 
   SupervisorParams params_;
-  std::array<State, kNumWatches> states_;
+  std::array<State, kNumMonitors> states_;
   Transitions transitions_;
   double care_ = 0.0, crouch_ = 0.0;
 };

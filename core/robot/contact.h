@@ -20,7 +20,7 @@ constexpr std::array<std::pair<ContactSource, std::string_view>, 4> EnumNames(Co
 
 /// Which feet are on the ground, and what each source says of them.
 struct ContactEstimate {
-  LegArray<bool> contact;                 // the word that counts
+  LegArray<bool> contact;                 // fused
   LegArray<ContactSource> source;         // whose it is
   LegArray<Vec3> f_F_W = ZeroPerLeg();    // N, ground on foot, from the momentum observer
   LegArray<bool> sensor, observer;        // their own words

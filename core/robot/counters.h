@@ -33,7 +33,7 @@ enum class Count {
   kJointInvalid,       // ticks with a joint reading that is not finite
   kSlip,               // standing feet that the estimator saw slip
   kEstimateRefused,    // corrections of the estimate that were not usable
-  kFallbackMpc,        // times that the supervisor gave the stage up, in the order of Watch
+  kFallbackMpc,        // times that the fallback was engaged, in the order of Monitor
   kFallbackBody,
   kFallbackEstimator,
   kFallbackContact,

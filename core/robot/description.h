@@ -13,8 +13,8 @@
 
 namespace scoria::core {
 
-/// Names that tie a leg of the house convention to a URDF. Signs and zeros of the joints are found
-/// from its geometry.
+/// Names that tie a leg of the canonical joint convention to a URDF. Signs and zeros of the joints
+/// are found from its geometry.
 struct LegNames {
   std::string haa, hfe, kfe;  // joints
   std::string foot;           // link whose collision sphere is the foot
@@ -52,7 +52,7 @@ struct MotorParams {
   void Serialize(Archive& a) {
     constexpr double kNone = 0.0;
     a.Field("armature_kgm2", armature_kgm2,
-            {.min = kNone, .max = 1.0, .doc = "rotor inertia felt at the joint"});
+            {.min = kNone, .max = 1.0, .doc = "rotor inertia seen at the joint"});
     a.Field("damping_Nms_per_rad", damping_Nms_per_rad, {.min = kNone, .max = 10.0});
     a.Field("friction_Nm", friction_Nm, {.min = kNone, .max = 10.0, .doc = "Coulomb friction"});
     a.Field("copper_loss_W_per_Nm2", copper_loss_W_per_Nm2, {.min = kNone, .max = 100.0});
@@ -145,8 +145,9 @@ struct Body : SpatialInertia {
 /// the sum in this order.
 void MergeInertia(Body& body, const SpatialInertia& link);
 
-/// A revolute joint in the house convention: HAA about +x, HFE and KFE about +y of the trunk when
-/// q = 0, where the leg hangs straight down. The URDF's angle is urdf_sign q + urdf_zero_rad.
+/// A revolute joint in the canonical joint convention: HAA about +x, HFE and KFE about +y of the
+/// trunk when q = 0, where the leg hangs straight down. The URDF's angle is urdf_sign q +
+/// urdf_zero_rad.
 struct JointDescription {
   std::string name;
   Vec3 p_PJ = Vec3::Zero();  // joint frame in the parent link
@@ -179,8 +180,8 @@ struct Shape {
   std::array<float, 3> colour = {0.7f, 0.7f, 0.7f};
 };
 
-/// A quadruped in the house convention: a trunk and four legs of HAA, HFE, KFE. Built once, then
-/// constant.
+/// A quadruped in the canonical joint convention: a trunk and four legs of HAA, HFE, KFE. Built
+/// once, then constant.
 struct RobotDescription {
   RobotConfig config;
   std::string urdf_text;

@@ -7,9 +7,9 @@
 
 namespace scoria::core {
 
-/// Turns every joint into the house convention, whatever sign and zero its URDF gave it: HAA about
-/// +x, HFE and KFE about +y, and q = 0 where the leg hangs straight down. A zero that is off by
-/// less than 0.05 rad is the maker's own and stays.
+/// Turns every joint into the canonical joint convention, whatever sign and zero its URDF gave it:
+/// HAA about +x, HFE and KFE about +y, and q = 0 where the leg hangs straight down. A zero that is
+/// off by less than 0.05 rad is the maker's own and stays.
 /// @returns what makes that impossible, empty if nothing.
 [[nodiscard]] std::string NormaliseJoints(RobotDescription& robot);
 

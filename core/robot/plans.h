@@ -91,7 +91,7 @@ struct ForcePlan {
 /// the body frame.
 enum class LegMode { kStance, kSwing, kEarlyContact, kLowering, kHolding, kStumble };
 
-/// The contact set that the body controllers act on: the plan corrected by what the feet felt.
+/// The contact set that the body controllers act on: the plan corrected by what the feet sensed.
 struct LegPhases {
   LegArray<LegMode> mode{LegMode::kStance};
   LegArray<double> swing_progress;  // 0 lift-off .. 1 planned touchdown

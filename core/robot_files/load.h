@@ -15,7 +15,7 @@ namespace scoria::core {
 [[nodiscard]] RobotDescription ReadRobot(const RobotConfig& config);
 
 /// The robot of a URDF text (a log carries it): a trunk and four legs of HAA, HFE, KFE, fixed links
-/// merged, joints in the house convention.
+/// merged, joints in the canonical joint convention.
 /// @param meshes  where the log carries them too; files that are not among them are read.
 /// Errors: as ReadRobot.
 [[nodiscard]] RobotDescription MakeRobot(const RobotConfig& config, const std::string& urdf_text,

@@ -21,7 +21,7 @@ class Definitions {
  public:
   /// Takes a schema or channel record. @returns as Conflict.
   std::string Add(std::uint8_t op, std::span<const std::byte> body);
-  /// @returns how the record contradicts a definition, empty if it does not.
+  /// @returns in what the record differs from a definition, empty if in nothing.
   [[nodiscard]] std::string Conflict(std::uint8_t op, std::span<const std::byte> body) const;
 
   [[nodiscard]] const std::map<std::uint16_t, SchemaRecord>& schemas() const { return schemas_; }

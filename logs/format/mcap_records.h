@@ -17,7 +17,7 @@
 /// record is known to have are left alone, as the specification asks. Source: [MCAP], "Records".
 namespace scoria::logs::mcap_format {
 
-/// A record whose bytes end within a field, or contradict themselves.
+/// A record whose bytes end within a field, or are at odds with each other.
 class RecordError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -26,8 +26,8 @@ void FootForceSensors::Reset() noexcept {
 
 double FootForceSensors::Counts(Leg leg, double force_N, const FootFault& fault) const noexcept {
   if (fault.is_dead) return 0.0;
-  const double felt_N = fault.gain * force_N + fault.load_N;
-  const double counts = gain_per_N_[leg] * std::max(felt_N - params_.dead_band_N, 0.0) +
+  const double sensed_N = fault.gain * force_N + fault.load_N;
+  const double counts = gain_per_N_[leg] * std::max(sensed_N - params_.dead_band_N, 0.0) +
                         zero_[leg] + fault.drift_counts;
   const double step = params_.resolution;
   return std::clamp(step > 0.0 ? step * std::round(counts / step) : counts, 0.0, params_.limit);

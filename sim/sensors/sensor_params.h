@@ -123,8 +123,9 @@ struct FootForceParams {
 };
 
 /// Sensors as a robot has them.
-struct HonestSensors {
-  static constexpr const char* kType = "honest";
+struct RealisticSensors {
+  static constexpr const char* kType = "realistic";
+  static constexpr const char* kFormerType = "honest";
   ImuParams imu;
   EncoderParams encoders;
   TorqueSensorParams torque;
@@ -145,13 +146,13 @@ struct IdealSensors {
   void Serialize(Archive&) {}
 };
 
-using SensorParams = std::variant<HonestSensors, IdealSensors>;
+using SensorParams = std::variant<RealisticSensors, IdealSensors>;
 
-/// What makes honest sensors ideal: no errors, no limits, a sample in every step.
-[[nodiscard]] inline HonestSensors WithoutErrors() noexcept {
+/// What makes realistic sensors ideal: no errors, no limits, a sample in every step.
+[[nodiscard]] inline RealisticSensors WithoutErrors() noexcept {
   constexpr double kUnlimited = std::numeric_limits<double>::infinity();
   constexpr SamplingParams kEveryStep{.rate_Hz = kUnlimited, .latency_s = 0.0};
-  HonestSensors p;
+  RealisticSensors p;
   p.imu = {kEveryStep, 0.0, 0.0, 0.0, kUnlimited, 0.0, 0.0, 0.0, kUnlimited, 0.0};
   p.encoders = {kEveryStep, 0, 0.0};
   p.torque = {kEveryStep, 0.0, 0.0, 0.0};

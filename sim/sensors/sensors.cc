@@ -6,9 +6,9 @@
 namespace scoria::sim {
 namespace {
 
-HonestSensors Resolve(const SensorParams& params) noexcept {
-  const auto* honest = std::get_if<HonestSensors>(&params);
-  return honest != nullptr ? *honest : WithoutErrors();
+RealisticSensors Resolve(const SensorParams& params) noexcept {
+  const auto* realistic = std::get_if<RealisticSensors>(&params);
+  return realistic != nullptr ? *realistic : WithoutErrors();
 }
 
 }  // namespace

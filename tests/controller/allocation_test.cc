@@ -33,7 +33,7 @@ TEST(Controller, StepNeverAllocates) {
     sim::World world(robot, ground, {}, gravity_W);
     world.Reset(test::StandingState());
     sim::Actuation actuation(robot);
-    sim::Sensors sensors(robot, sim::HonestSensors{}, {}, gravity_W, 0.001, 1);
+    sim::Sensors sensors(robot, sim::RealisticSensors{}, {}, gravity_W, 0.001, 1);
     ControllerParams params;
     params.gait = gait;
     params.legs.late_contact = AirborneFoot::kLower;

@@ -164,7 +164,7 @@ TEST(Clone, DelaysOfCommandsAndSamples) {
   core::RobotDescription robot = test::Go2();
   robot.config.motors.delay_s = 0.003;
   LoopParams params;
-  auto& sensors = std::get<sim::HonestSensors>(params.sensors);
+  auto& sensors = std::get<sim::RealisticSensors>(params.sensors);
   sensors.imu.sampling = {.rate_Hz = 500.0, .latency_s = 0.003};
   sensors.encoders.sampling.latency_s = 0.001;
   for (const int at : {137, 611, 845}) ExpectClonesAgree(params, StonyGround(), at, 1100, robot);

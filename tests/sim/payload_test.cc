@@ -164,7 +164,7 @@ TEST(Payload, MatchedBodyBringsAndTakesItsOwnMomentum) {
   }
 }
 
-TEST(Payload, ImpactIsFeltInTheNextStepsAcceleration) {
+TEST(Payload, ImpactShowsInTheNextStepsAcceleration) {
   const terrains::Heightfield ground = test::FlatGround();
   const PhysicsParams params;
   World world(test::Go2(), ground, params, Vec3::Zero());

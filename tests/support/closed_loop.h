@@ -17,7 +17,7 @@ namespace scoria::test {
 
 struct LoopParams {
   sim::PhysicsParams physics;
-  sim::SensorParams sensors = sim::HonestSensors{};
+  sim::SensorParams sensors = sim::RealisticSensors{};
   std::vector<sim::SensorFault> sensor_faults;
   std::vector<sim::PayloadEvent> payloads;
   std::optional<sim::SlidingPayloadParams> sliding;

@@ -20,7 +20,7 @@ Trot::Trot(const controller::ContactParams& params, const core::RobotDescription
 
 const ContactEstimate& Trot::Step() {
   Load(tick_ * kStep_s);
-  const SensorFrame z = Feel();
+  const SensorFrame z = Measure();
   ++tick_;
   out_ = estimator.Update({z, wb_, plan_, 0.0, {}, robot_.legs[Leg::kFL].foot_radius_m});
   return out_;
@@ -39,7 +39,7 @@ void Trot::Load(double time_s) {
   plan_.standing = standing;
 }
 
-SensorFrame Trot::Feel() {
+SensorFrame Trot::Measure() {
   SensorFrame z = Sense(robot_, wb_, motion_);
   for (const Leg leg : kLegs) {
     const double load_N = motion_.f_F_W[leg].z();

@@ -9,7 +9,7 @@
 
 namespace scoria::test {
 
-/// A Go2 that trots on the spot, and the contact estimator that feels it: torques and foot sensors
+/// A Go2 that trots on the spot, and the contact estimator that senses it: torques and foot sensors
 /// as the planned contacts ask for, trunk and joints at rest.
 class Trot {
  public:
@@ -35,7 +35,7 @@ class Trot {
 
  private:
   void Load(double time_s);
-  SensorFrame Feel();
+  SensorFrame Measure();
 
   core::RobotDescription robot_;
   core::Rng rng_;

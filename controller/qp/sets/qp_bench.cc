@@ -19,9 +19,9 @@ double MedianMicroseconds(int repeats, Prepare&& prepare, Solve&& solve) {
   std::vector<double> times_us;
   for (int i = 0; i < repeats; ++i) {
     prepare();
-    const core::Stopwatch watch;
+    const core::Stopwatch stopwatch;
     solve();
-    times_us.push_back(watch.seconds() * kUsPerS);
+    times_us.push_back(stopwatch.seconds() * kUsPerS);
   }
   return core::SampleQuantile(std::move(times_us), 0.5);
 }

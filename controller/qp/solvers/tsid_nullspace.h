@@ -8,7 +8,7 @@ namespace scoria::controller {
 
 /// Eliminates the equations of motion and the contacts, which leaves always twelve unknowns, z =
 /// force of each stance foot or joint acceleration of each swing leg, and no equalities. Needs the
-/// inverse of every stance leg's Jacobian: gives up with singular_leg where one is nearly
+/// inverse of every stance leg's Jacobian: ends with singular_leg where one is nearly
 /// stretched.
 class TsidNullspace final : public TsidSolver {
  public:

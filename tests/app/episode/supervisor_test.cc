@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One scenario per transition of the supervisor: the event is there, the robot walks on and the
-// stage comes back; switched off, there is no event.
+// stage is in use again; switched off, there is no event.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -27,9 +27,9 @@ struct Outcome {
   }
 };
 
-Outcome Walk(const std::string& watch, bool enabled) {
+Outcome Walk(const std::string& monitor, bool enabled) {
   const Scenario scenario = test::LoadScenario(
-      "supervisor/" + watch, {fmt::format("controller.supervisor.enabled={}", enabled)});
+      "supervisor/" + monitor, {fmt::format("controller.supervisor.enabled={}", enabled)});
   const core::RobotDescription robot = core::LoadRobot(scenario.robot);
   const terrains::Heightfield ground =
       terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);
@@ -47,19 +47,20 @@ Outcome Walk(const std::string& watch, bool enabled) {
 class SupervisorScenario : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(SupervisorScenario, FallsBackWithItsReasonAndTheRobotWalksOn) {
-  const std::string watch = GetParam();
-  const Outcome on = Walk(watch, true);
+  const std::string monitor = GetParam();
+  const Outcome on = Walk(monitor, true);
   EXPECT_EQ(on.end, EpisodeEnd::kCompleted);
   // Ground on which feet stumble all the time lets the robot fall too, now and then.
-  if (watch != "footing") {
+  if (monitor != "footing") {
     EXPECT_EQ(on.falls, 0);
   }
-  EXPECT_TRUE(on.Has(watch + ": falls back on ")) << fmt::format("{}", fmt::join(on.events, "; "));
-  EXPECT_TRUE(on.Has(watch + ": comes back"));
-  EXPECT_TRUE(Walk(watch, false).events.empty());
+  EXPECT_TRUE(on.Has(monitor + ": fallback engaged"))
+      << fmt::format("{}", fmt::join(on.events, "; "));
+  EXPECT_TRUE(on.Has(monitor + ": fallback released"));
+  EXPECT_TRUE(Walk(monitor, false).events.empty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Watches, SupervisorScenario,
+INSTANTIATE_TEST_SUITE_P(Monitors, SupervisorScenario,
                          ::testing::Values("mpc", "body", "estimator", "contact", "footing",
                                            "load"),
                          [](const auto& test) { return std::string(test.param); });
@@ -78,7 +79,7 @@ TEST(SupervisorScenario, ChangeOfTheControllerKeepsTheContactFallback) {
   FunctionObserver observer;
   observer.on_row = [&](const StepRecord&, const logs::Row& row) {
     const bool was_engaged = engaged;
-    engaged = row.supervision->fallen_back[static_cast<std::size_t>(controller::Watch::kContact)];
+    engaged = row.supervision->fallen_back[static_cast<std::size_t>(controller::Monitor::kContact)];
     if (!was_engaged || !engaged) return;
     ++on_fallback;
     for (std::size_t leg = 0; leg < 4; ++leg) {

@@ -23,9 +23,9 @@ struct Outcome {
   analysis::EpisodeMetrics metrics;
 };
 
-using Watch = std::function<void(const logs::Row&)>;
+using Monitor = std::function<void(const logs::Row&)>;
 
-Outcome Walk(const Scenario& scenario, const Watch& watch = {}) {
+Outcome Walk(const Scenario& scenario, const Monitor& monitor = {}) {
   const core::RobotDescription robot = core::LoadRobot(scenario.robot);
   const terrains::Heightfield ground =
       terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);
@@ -33,7 +33,7 @@ Outcome Walk(const Scenario& scenario, const Watch& watch = {}) {
   FunctionObserver observer;
   observer.on_row = [&](const StepRecord&, const logs::Row& row) {
     accumulator.AddRow(row);
-    if (watch) watch(row);
+    if (monitor) monitor(row);
   };
   Outcome out;
   out.result = RunEpisode(scenario, robot, ground, {&observer});
@@ -96,7 +96,7 @@ class GaitTable : public ::testing::TestWithParam<TableGait> {};
 
 TEST_P(GaitTable, Walks) {
   const auto [name, v_x_mps, scenario] = GetParam();
-  // Gallops give up speed and direction for balance, and are asked for ten seconds.
+  // Gallops lose speed and direction to balance, and must last ten seconds.
   const bool gallops = std::string_view(scenario) == "gallop";
   const Outcome o = Walk(test::LoadScenario(
       scenario, {fmt::format("controller.gait={{type: sgs, gait: {}}}", name), "start=standing",
@@ -346,7 +346,7 @@ TEST(Push, FifteenNewtonSecondsFromTheSideAreSurvived) {
                                       std::string("pushes.0.azimuth_rad=") + side, "duration_s=9"}),
           [&](const logs::Row& row) { v_y.push_back(std::abs(row.truth->v_WB_mps[1])); });
       EXPECT_EQ(o.result.falls, 0) << gait << side;
-      EXPECT_GT(*std::max_element(v_y.begin(), v_y.end()), 0.4) << "the push is felt";
+      EXPECT_GT(*std::max_element(v_y.begin(), v_y.end()), 0.4) << "the push moves the trunk";
     }
   }
 }
@@ -406,7 +406,7 @@ TEST(Energy, CostOfTransportDoesNotDependOnTheEncoders) {
                              "controller.estimator.type=truth", "controller.contact.source=truth"}))
         .metrics;
   };
-  const analysis::EpisodeMetrics real = cost("honest"), ideal = cost("ideal");
+  const analysis::EpisodeMetrics real = cost("realistic"), ideal = cost("ideal");
   EXPECT_NEAR(real.cot_mech_abs, ideal.cot_mech_abs, 0.02 * ideal.cot_mech_abs);
   EXPECT_NEAR(real.cot_mech_pos, ideal.cot_mech_pos, 0.02 * ideal.cot_mech_pos);
   EXPECT_NEAR(real.cot_electrical, ideal.cot_electrical, 0.02 * ideal.cot_electrical);

@@ -100,7 +100,7 @@ TEST(Campaign, SweepsOverVariantsOfSeveralKeys) {
   core::ConfigNode node = campaign.scenario;
   core::MergeConfig(node, axis.sets.at(1));
   const auto scenario = core::ReadConfig<Scenario>(node);
-  EXPECT_EQ(std::get<sim::HonestSensors>(scenario.sensors).torque.gain_error, 0.0);
+  EXPECT_EQ(std::get<sim::RealisticSensors>(scenario.sensors).torque.gain_error, 0.0);
 }
 
 TEST(Campaign, SweepErrorsNameTheRule) {

@@ -371,14 +371,14 @@ TEST(KfPlus, AJointThatCameToRestKeepsItsFriction) {
   }
 }
 
-// --- Hand-over ----------------------------------------------------------------------------------
+// --- Update of the model -----------------------------------------------------------------------
 
-TEST(HandOver, IsSmoothAndEndsAtTheEstimate) {
+TEST(ModelUpdateGate, IsSmoothAndEndsAtTheEstimate) {
   const KfPlusParams params = Untared();
   Standing robot(params);
   robot.SetPayload(5.0, kPlace);
   core::ModelParameters last = core::WholeBodyModel(robot.robot(), kGravity_mps2).parameters();
-  const double limit_kg = params.hand_over.rate_kgps / params.rate_Hz + 1e-9;
+  const double limit_kg = params.update_gate.rate_kgps / params.rate_Hz + 1e-9;
   int changes = 0;
   for (int i = 0; i < Ticks(10.0); ++i) {
     const Adaptation& out = robot.Step();
@@ -389,7 +389,7 @@ TEST(HandOver, IsSmoothAndEndsAtTheEstimate) {
     last = out.parameters;
   }
   EXPECT_GT(changes, 100);
-  // The model that is handed over is the loaded robot.
+  // The updated model is the loaded robot.
   core::WholeBodyModel model(robot.robot(), kGravity_mps2);
   model.SetParameters(last);
   core::WholeBody wb;
@@ -399,24 +399,25 @@ TEST(HandOver, IsSmoothAndEndsAtTheEstimate) {
   EXPECT_LT((p_BC - robot.p_BC()).norm(), 1e-3);
 }
 
-TEST(HandOver, WaitsForTheCovariance) {
+TEST(ModelUpdateGate, WaitsForTheCovariance) {
   KfPlusParams params = Untared();
-  params.hand_over.max_sigma_kg = params.hand_over.max_sigma_kgm = 1e-6;
+  params.update_gate.max_sigma_kg = params.update_gate.max_sigma_kgm = 1e-6;
   Standing robot(params);
   robot.SetPayload(5.0, kPlace);
   for (int i = 0; i < Ticks(5.0); ++i) ASSERT_FALSE(robot.Step().changed);
 }
 
-TEST(HandOver, InertiaIsThatOfThePayloadAsAPoint) {
+TEST(ModelUpdateGate, InertiaIsThatOfThePayloadAsAPoint) {
   const core::RobotDescription& robot = test::Go2();
-  HandOverParams params;
+  UpdateGateParams params;
   params.rate_kgps = params.rate_kgmps = 1e6;
-  HandOver hand_over(params, robot);
+  ModelUpdateGate update_gate(params, robot);
   core::WholeBody wb;
   core::WholeBodyModel(robot, kGravity_mps2).Calc(test::StandingState(), wb);
   const double m = 3.0, m0 = robot.trunk.mass_kg;
   const Vec3 p(kPlace.x(), kPlace.y(), params.payload_height_m);
-  const auto out = hand_over.Update(m * Vec3(1.0, p.x(), p.y()), 1e-6 * Mat3::Identity(), wb, 0.01);
+  const auto out =
+      update_gate.Update(m * Vec3(1.0, p.x(), p.y()), 1e-6 * Mat3::Identity(), wb, 0.01);
   const Vec3 c = (m0 * robot.trunk.p_OC + m * p) / (m0 + m);
   const auto point = [](double mass, const Vec3& d) {
     return Mat3(mass * (d.squaredNorm() * Mat3::Identity() - d * d.transpose()));

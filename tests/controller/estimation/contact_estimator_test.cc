@@ -134,9 +134,9 @@ TEST(ContactParams, AreWrittenAndReadBack) {
 
 /// Sensors with the errors of real ones: torque gain, offset, noise and delay, encoders of 14 bit
 /// with a tracking loop for the speed, noise of the IMU.
-class HonestSensors {
+class RealisticSensors {
  public:
-  explicit HonestSensors(std::uint64_t seed) : rng_(seed, 0, core::Stream::kSensor) {
+  explicit RealisticSensors(std::uint64_t seed) : rng_(seed, 0, core::Stream::kSensor) {
     for (const Leg leg : kLegs) {
       gain_[leg] = Vec3::Ones() + Noise(0.02);
       offset_Nm_[leg] = Noise(0.1);
@@ -201,7 +201,7 @@ std::vector<int> TicksToEdge(const std::vector<LogTick>& log, Leg leg) {
   return distance;
 }
 
-TEST(Go1Log, WithHonestSensorsContactsAreRightAndInTime) {
+TEST(Go1Log, WithRealisticSensorsContactsAreRightAndInTime) {
   const std::optional<std::filesystem::path> folder = test::Go1Folder();
   if (!folder) GTEST_SKIP() << "SCORIA_REFERENCE_DATA is not set";
   const core::RobotDescription robot = test::LoadGo1(*folder);
@@ -211,7 +211,7 @@ TEST(Go1Log, WithHonestSensorsContactsAreRightAndInTime) {
   double right = 0.0, n = 0.0;
   std::vector<int> delays;
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
-    HonestSensors sensors(seed);
+    RealisticSensors sensors(seed);
     ContactEstimator estimator({}, robot, kGravity_mps2, kStep_s);
     const ContactPlan no_plan;
     core::WholeBody wb;

@@ -62,9 +62,9 @@ class Foot {
 
  private:
   double Counts(double force_N) {
-    const double felt_N = fault.share * force_N + fault.offset_N - dead_band_N;
+    const double sensed_N = fault.share * force_N + fault.offset_N - dead_band_N;
     const double counts =
-        gain_per_N * std::max(0.0, felt_N) + zero_counts + 0.5 * rng_.NextNormal();
+        gain_per_N * std::max(0.0, sensed_N) + zero_counts + 0.5 * rng_.NextNormal();
     return std::clamp(std::round(counts), 0.0, limit_counts);
   }
   SensorHealth health_;
@@ -138,7 +138,7 @@ TEST(SensorHealth, TheObserversOwnErrorsAreTolerated) {
   }
   foot.observer_share = 1.0;
   ASSERT_TRUE(foot.Run(0.1));
-  foot.fault = {500.0, 1.0};  // an impact that the observer has not felt yet
+  foot.fault = {500.0, 1.0};  // an impact that the observer has not seen yet
   EXPECT_TRUE(foot.Run(0.006));
   foot.fault = kNone;
   EXPECT_TRUE(foot.Run(10.0));

@@ -103,12 +103,12 @@ TEST(Plan, SwingTimesCountDownToTouchdown) {
   }
 }
 
-/// A gait that is watched tick by tick: phases stay in [0, 1) and move on steadily, the plan's
+/// A gait that is monitored tick by tick: phases stay in [0, 1) and move on steadily, the plan's
 /// contacts are those of the phases, and feet lift only at the end of a stance and land only at the
 /// end of a swing.
-class Watched {
+class CheckedGait {
  public:
-  explicit Watched(const GaitParams& params) : gait_(MakeGaitSequencer(params, 0.30)) {}
+  explicit CheckedGait(const GaitParams& params) : gait_(MakeGaitSequencer(params, 0.30)) {}
 
   const ContactPlan& Tick(const GaitInput& in) {
     const ContactPlan before = plan_;
@@ -164,7 +164,7 @@ class RandomSpeeds : public ::testing::TestWithParam<GaitParams> {};
 TEST_P(RandomSpeeds, KeepPhasesSteadyContactsConsistentAndOffsetsConverging) {
   core::Rng rng(1, 0, core::Stream::kOperator);
   for (int profile = 0; profile < 40; ++profile) {
-    Watched gait(GetParam());
+    CheckedGait gait(GetParam());
     double v_wanted = 0.3, v = 0.0;
     GaitInput in;
     for (int i = 0; i < 1000; ++i) {
@@ -194,7 +194,7 @@ INSTANTIATE_TEST_SUITE_P(Gaits, RandomSpeeds,
 TEST(AdaptiveGait, TakesNewOffsetsThroughStanceWithinTwoCycles) {
   core::Rng rng(2, 0, core::Stream::kOperator);
   for (int trial = 0; trial < 50; ++trial) {
-    Watched gait(AgsParams{});
+    CheckedGait gait(AgsParams{});
     GaitInput in = Walking(0.3);
     for (const GaitPattern pattern : {GaitPattern::kTrot, GaitPattern::kWalk, GaitPattern::kPace,
                                       GaitPattern::kTrot, GaitPattern::kPace, GaitPattern::kWalk}) {
@@ -209,7 +209,7 @@ TEST(AdaptiveGait, TakesNewOffsetsThroughStanceWithinTwoCycles) {
 
 TEST(Standing, FeetOutOfPlaceStepBackOneAtATime) {
   for (const GaitParams& params : {GaitParams(AgsParams{}), GaitParams(SgsParams{})}) {
-    Watched gait(params);
+    CheckedGait gait(params);
     GaitInput in = Walking(0.0);
     in.foot_error_m = {0.02, 0.12, 0.02, 0.10};
     LegArray<int> swing_ticks(0);
@@ -232,7 +232,7 @@ TEST(Standing, FeetOutOfPlaceStepBackOneAtATime) {
 
 // The reference's bands, reached and left with hysteresis, period and duty factor without a jump.
 TEST(BioGait, ChangesByFroudeNumberInABlend) {
-  Watched gait(BioParams{});
+  CheckedGait gait(BioParams{});
   const auto settle = [&](double v) {
     ContactPlan plan;
     for (int i = 0; i < 300; ++i) plan = gait.Tick(Walking(v));

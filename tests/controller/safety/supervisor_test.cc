@@ -16,28 +16,28 @@ constexpr double kDt_s = 0.002;
 
 Qualities AllSound() { return {1.0, 1.0, 1.0, 1.0, 1.0, 1.0}; }
 
-Qualities With(Watch watch, double quality) {
+Qualities With(Monitor monitor, double quality) {
   Qualities q = AllSound();
-  q[static_cast<std::size_t>(watch)] = quality;
+  q[static_cast<std::size_t>(monitor)] = quality;
   return q;
 }
 
-/// Ticks until the first transition of `watch`, or -1.
-int TicksUntilTransition(Supervisor& supervisor, const Qualities& q, Watch watch, int limit) {
+/// Ticks until the first transition of `monitor`, or -1.
+int TicksUntilTransition(Supervisor& supervisor, const Qualities& q, Monitor monitor, int limit) {
   for (int i = 1; i <= limit; ++i) {
     supervisor.Update(q, kDt_s);
     for (std::size_t k = 0; k < supervisor.transitions().count; ++k)
-      if (supervisor.transitions().list[k].watch == watch) return i;
+      if (supervisor.transitions().list[k].monitor == monitor) return i;
   }
   return -1;
 }
 
-class EveryWatch : public ::testing::TestWithParam<Watch> {};
+class EveryWatch : public ::testing::TestWithParam<Monitor> {};
 
 TEST_P(EveryWatch, FallsBackAfterItsTimeAndComesBackWhenSoundAgain) {
   SupervisorParams params;
-  for (WatchParams* w : {&params.mpc, &params.body, &params.estimator, &params.contact,
-                         &params.footing, &params.load})
+  for (MonitorParams* w : {&params.mpc, &params.body, &params.estimator, &params.contact,
+                           &params.footing, &params.load})
     *w = {.least_quality = 0.5, .after_s = 0.1, .recover_s = 0.3};
   Supervisor supervisor(params);
   EXPECT_EQ(TicksUntilTransition(supervisor, AllSound(), GetParam(), 1000), -1);
@@ -52,21 +52,21 @@ TEST_P(EveryWatch, FallsBackAfterItsTimeAndComesBackWhenSoundAgain) {
   EXPECT_FALSE(FallbackName(GetParam()).empty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Watches, EveryWatch,
-                         ::testing::Values(Watch::kMpc, Watch::kBody, Watch::kEstimator,
-                                           Watch::kContact, Watch::kFooting, Watch::kLoad),
+INSTANTIATE_TEST_SUITE_P(Monitors, EveryWatch,
+                         ::testing::Values(Monitor::kMpc, Monitor::kBody, Monitor::kEstimator,
+                                           Monitor::kContact, Monitor::kFooting, Monitor::kLoad),
                          [](const auto& test) { return std::string(core::EnumName(test.param)); });
 
 TEST(Supervisor, AQualityThatIsNotANumberIsUnsound) {
   Supervisor supervisor({});
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_GT(TicksUntilTransition(supervisor, With(Watch::kBody, nan), Watch::kBody, 1000), 0);
+  EXPECT_GT(TicksUntilTransition(supervisor, With(Monitor::kBody, nan), Monitor::kBody, 1000), 0);
 }
 
 TEST(Supervisor, OneBadTickAmongGoodOnesIsNoReason) {
   Supervisor supervisor({});
   for (int i = 0; i < 5000; ++i) {
-    supervisor.Update(i % 3 == 0 ? With(Watch::kFooting, 0.0) : AllSound(), kDt_s);
+    supervisor.Update(i % 3 == 0 ? With(Monitor::kFooting, 0.0) : AllSound(), kDt_s);
     ASSERT_EQ(supervisor.transitions().count, 0u);
   }
 }
@@ -76,7 +76,7 @@ TEST(Supervisor, SwitchedOffItDoesNothing) {
   params.enabled = false;
   Supervisor supervisor(params);
   for (int i = 0; i < 5000; ++i) supervisor.Update(Qualities{}, kDt_s);
-  EXPECT_FALSE(supervisor.HasFallenBack(Watch::kMpc));
+  EXPECT_FALSE(supervisor.HasFallenBack(Monitor::kMpc));
   EXPECT_EQ(supervisor.care(), 0.0);
   EXPECT_EQ(supervisor.crouch(), 0.0);
 }
@@ -88,13 +88,13 @@ TEST(Supervisor, TempersTheCommandWithoutAStep) {
   command.v_x_mps = 0.5;
   double before = 0.5;
   for (int i = 0; i < 2000; ++i) {
-    supervisor.Update(With(Watch::kFooting, 0.0), kDt_s);
+    supervisor.Update(With(Monitor::kFooting, 0.0), kDt_s);
     const double now = supervisor.Temper(command, 0.3).v_x_mps;
     ASSERT_LT(std::abs(now - before), 0.001);
     before = now;
   }
   EXPECT_NEAR(before, 0.5 * params.careful_speed_share, 1e-9);
-  for (int i = 0; i < 5000; ++i) supervisor.Update(With(Watch::kLoad, 0.0), kDt_s);
+  for (int i = 0; i < 5000; ++i) supervisor.Update(With(Monitor::kLoad, 0.0), kDt_s);
   const Command loaded = supervisor.Temper(command, 0.3);
   EXPECT_NEAR(loaded.v_x_mps, 0.0, 1e-9);
   EXPECT_NEAR(loaded.height_m, 0.3 * params.crouch_share, 1e-9);
@@ -109,7 +109,9 @@ struct Well {
   }
 };
 
-double QualityOf(const Qualities& q, Watch watch) { return q[static_cast<std::size_t>(watch)]; }
+double QualityOf(const Qualities& q, Monitor monitor) {
+  return q[static_cast<std::size_t>(monitor)];
+}
 
 TEST(StageQuality, IsOneWhereAllIsWell) {
   const Well well;
@@ -118,7 +120,7 @@ TEST(StageQuality, IsOneWhereAllIsWell) {
     for (const double q : quality.Update(well.Report(), kDt_s)) ASSERT_NEAR(q, 1.0, 1e-12);
 }
 
-TEST(StageQuality, ASpeedThatContradictsTheAccelerometerDiscreditsTheEstimate) {
+TEST(StageQuality, ASpeedAtOddsWithTheAccelerometerDiscreditsTheEstimate) {
   const Well well;
   StageQuality quality({});
   StageReports reports = well.Report();
@@ -128,13 +130,13 @@ TEST(StageQuality, ASpeedThatContradictsTheAccelerometerDiscreditsTheEstimate) {
     reports.v_W.x() += 0.5 * kDt_s;
     std::ignore = quality.Update(reports, kDt_s);
   }
-  EXPECT_GT(QualityOf(quality.qualities(), Watch::kEstimator), 0.95);
+  EXPECT_GT(QualityOf(quality.qualities(), Monitor::kEstimator), 0.95);
   // An attitude that is off by 5 degrees turns gravity into an acceleration that nobody sees.
   for (int i = 0; i < 1000; ++i) {
     reports.a_W = {9.81 * std::sin(5.0 * M_PI / 180.0), 0.0, 0.0};
     std::ignore = quality.Update(reports, kDt_s);
   }
-  EXPECT_LT(QualityOf(quality.qualities(), Watch::kEstimator), 0.5);
+  EXPECT_LT(QualityOf(quality.qualities(), Monitor::kEstimator), 0.5);
 }
 
 TEST(StageQuality, StumblesAreSwingFeetThatTouchAndLagBehind) {
@@ -144,11 +146,11 @@ TEST(StageQuality, StumblesAreSwingFeetThatTouchAndLagBehind) {
   StageQuality quality({});
   StageReports reports = well.Report();
   for (int i = 0; i < 10; ++i) std::ignore = quality.Update(reports, kDt_s);
-  EXPECT_EQ(QualityOf(quality.qualities(), Watch::kFooting), 1.0) << "a foot that still touches";
+  EXPECT_EQ(QualityOf(quality.qualities(), Monitor::kFooting), 1.0) << "a foot that still touches";
   reports.foot_lag_m[Leg::kFL] = 0.06;
   for (int i = 0; i < 10; ++i) std::ignore = quality.Update(reports, kDt_s);
-  const double once = QualityOf(quality.qualities(), Watch::kFooting);
-  EXPECT_NEAR(once, 1.0 - 1.0 / QualityParams{}.mishaps, 0.02) << "counts once a swing";
+  const double once = QualityOf(quality.qualities(), Monitor::kFooting);
+  EXPECT_NEAR(once, 1.0 - 1.0 / QualityParams{}.stumbles, 0.02) << "counts once a swing";
 }
 
 TEST(StageQuality, TiltAndSpentTorqueLowerTheirQualities) {
@@ -158,8 +160,8 @@ TEST(StageQuality, TiltAndSpentTorqueLowerTheirQualities) {
   reports.tilt_error_rad = 0.5 * QualityParams{}.tilt_rad;
   reports.torque_spent = true;
   for (int i = 0; i < 3000; ++i) std::ignore = quality.Update(reports, kDt_s);
-  EXPECT_NEAR(QualityOf(quality.qualities(), Watch::kFooting), 0.5, 1e-9);
-  EXPECT_LT(QualityOf(quality.qualities(), Watch::kLoad), 0.01);
+  EXPECT_NEAR(QualityOf(quality.qualities(), Monitor::kFooting), 0.5, 1e-9);
+  EXPECT_LT(QualityOf(quality.qualities(), Monitor::kLoad), 0.01);
 }
 
 }  // namespace

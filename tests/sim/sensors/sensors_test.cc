@@ -111,15 +111,15 @@ TEST(IdealSensors, ReadTheTruthOfEveryStep) {
   }
 }
 
-TEST(SensorParams, AreHonestUnlessTheScenarioSaysIdeal) {
-  EXPECT_TRUE(std::holds_alternative<HonestSensors>(SensorParams{}));
+TEST(SensorParams, AreRealisticUnlessTheScenarioSaysIdeal) {
+  EXPECT_TRUE(std::holds_alternative<RealisticSensors>(SensorParams{}));
   const auto read = [](const char* yaml) {
     return core::ReadConfig<SensorParams>(core::ParseConfig(yaml, "sensors.yaml"));
   };
   EXPECT_TRUE(std::holds_alternative<IdealSensors>(read("{type: ideal}")));
-  const SensorParams honest = read("{imu: {sampling: {rate_Hz: 500}}}");
-  EXPECT_EQ(std::get<HonestSensors>(honest).imu.sampling.rate_Hz, 500.0);
-  EXPECT_EQ(std::get<HonestSensors>(honest).torque.sampling.latency_s, 0.002);
+  const SensorParams realistic = read("{imu: {sampling: {rate_Hz: 500}}}");
+  EXPECT_EQ(std::get<RealisticSensors>(realistic).imu.sampling.rate_Hz, 500.0);
+  EXPECT_EQ(std::get<RealisticSensors>(realistic).torque.sampling.latency_s, 0.002);
 }
 
 TEST(Imu, WhiteNoiseHasItsDensityAtEveryRate) {
@@ -189,7 +189,7 @@ TEST(Imu, BiasWalksWithTheRootOfTime) {
 }
 
 TEST(Imu, AtRestReadsGravityUpwards) {
-  Sensors sensors = MakeSensors(HonestSensors{});
+  Sensors sensors = MakeSensors(RealisticSensors{});
   const Truth truth = Standing();
   Vec3 mean_B = Vec3::Zero();
   for (int k = 0; k < 1000; ++k)
@@ -409,8 +409,8 @@ TEST(FootForce, ZeroLevelDriftsAsARandomWalk) {
 TEST(FootForce, RobotsWithoutFootSensorsReadNothing) {
   core::RobotDescription robot = test::Go2();
   robot.config.has_foot_sensors = false;
-  Sensors sensors(robot, HonestSensors{}, {FaultOf(SensorFaultKind::kFootPacked, 40.0)}, kGravity_W,
-                  kStep_s, 1);
+  Sensors sensors(robot, RealisticSensors{}, {FaultOf(SensorFaultKind::kFootPacked, 40.0)},
+                  kGravity_W, kStep_s, 1);
   EXPECT_EQ(ReadFor(sensors, Standing(), 50).foot_force_raw, LegArray<double>(0.0));
 }
 
@@ -467,7 +467,7 @@ TEST(SensorFaults, OfTheImu) {
 }
 
 TEST(SensorFaults, LostSamplesLeaveTheStampBehind) {
-  Sensors sensors = MakeSensors(HonestSensors{}, {FaultOf(SensorFaultKind::kImuDropout, 0.3)});
+  Sensors sensors = MakeSensors(RealisticSensors{}, {FaultOf(SensorFaultKind::kImuDropout, 0.3)});
   int lost = 0;
   constexpr int kSteps = 5000;
   for (int k = 0; k < kSteps; ++k) {
@@ -518,9 +518,9 @@ TEST(SensorFaults, MistakesAreNamed) {
             "magnitude: imu_dropout needs a share in (0, 1]");
 }
 
-/// Frames of honest sensors on a moving robot.
-std::vector<SensorFrame> Record(const HonestSensors& params, const std::vector<SensorFault>& faults,
-                                std::uint64_t seed) {
+/// Frames of realistic sensors on a moving robot.
+std::vector<SensorFrame> Record(const RealisticSensors& params,
+                                const std::vector<SensorFault>& faults, std::uint64_t seed) {
   Sensors sensors = MakeSensors(params, faults, seed);
   core::Rng rng(4, 0, core::Stream::kSensor);
   std::vector<SensorFrame> frames;
@@ -547,13 +547,13 @@ std::set<std::string> Differences(const std::vector<SensorFrame>& a,
 }
 
 TEST(Sensors, SameSeedGivesTheSameBits) {
-  EXPECT_EQ(Record(HonestSensors{}, {}, 5), Record(HonestSensors{}, {}, 5));
-  EXPECT_EQ(Differences(Record(HonestSensors{}, {}, 5), Record(HonestSensors{}, {}, 6)),
+  EXPECT_EQ(Record(RealisticSensors{}, {}, 5), Record(RealisticSensors{}, {}, 5));
+  EXPECT_EQ(Differences(Record(RealisticSensors{}, {}, 5), Record(RealisticSensors{}, {}, 6)),
             (std::set<std::string>{"encoders", "feet", "imu", "torque"}));
 }
 
 TEST(Sensors, FaultOfOneLeavesTheOthersAlone) {
-  const std::vector<SensorFrame> sound = Record(HonestSensors{}, {}, 5);
+  const std::vector<SensorFrame> sound = Record(RealisticSensors{}, {}, 5);
   for (const auto& [kind, name] : EnumNames(SensorFaultKind{})) {
     SensorFault fault = FaultOf(kind, 0.5);
     fault.ramp_s = 0.001;
@@ -565,30 +565,32 @@ TEST(Sensors, FaultOfOneLeavesTheOthersAlone) {
                                : name.starts_with("foot")    ? "feet"
                                : name.starts_with("encoder") ? "encoders"
                                                              : "torque";
-    const std::set<std::string> changed = Differences(sound, Record(HonestSensors{}, {fault}, 5));
+    const std::set<std::string> changed =
+        Differences(sound, Record(RealisticSensors{}, {fault}, 5));
     EXPECT_EQ(changed, std::set<std::string>{sensor}) << name;
   }
 }
 
 TEST(Sensors, SlowerSamplingOfOneLeavesTheOthersAlone) {
-  const std::vector<SensorFrame> usual = Record(HonestSensors{}, {}, 5);
-  const auto slower = [&](const std::function<SamplingParams&(HonestSensors&)>& of) {
-    HonestSensors params;
+  const std::vector<SensorFrame> usual = Record(RealisticSensors{}, {}, 5);
+  const auto slower = [&](const std::function<SamplingParams&(RealisticSensors&)>& of) {
+    RealisticSensors params;
     of(params).rate_Hz = 100.0;
     return Differences(usual, Record(params, {}, 5));
   };
   using Names = std::set<std::string>;
-  EXPECT_EQ(slower([](HonestSensors & p) -> auto& { return p.imu.sampling; }), Names{"imu"});
-  EXPECT_EQ(slower([](HonestSensors & p) -> auto& { return p.encoders.sampling; }),
+  EXPECT_EQ(slower([](RealisticSensors & p) -> auto& { return p.imu.sampling; }), Names{"imu"});
+  EXPECT_EQ(slower([](RealisticSensors & p) -> auto& { return p.encoders.sampling; }),
             Names{"encoders"});
-  EXPECT_EQ(slower([](HonestSensors & p) -> auto& { return p.torque.sampling; }), Names{"torque"});
-  EXPECT_EQ(slower([](HonestSensors & p) -> auto& { return p.foot_force.sampling; }),
+  EXPECT_EQ(slower([](RealisticSensors & p) -> auto& { return p.torque.sampling; }),
+            Names{"torque"});
+  EXPECT_EQ(slower([](RealisticSensors & p) -> auto& { return p.foot_force.sampling; }),
             Names{"feet"});
 }
 
 // Without noise and walk, what is left are the values of the turn-on.
 TEST(Sensors, ResetKeepsTheTurnOnAndForgetsTheMotion) {
-  HonestSensors params;
+  RealisticSensors params;
   params.imu.gyro_noise_radps_per_sqrt_Hz = params.imu.accel_noise_mps2_per_sqrt_Hz = 0.0;
   params.imu.gyro_walk_radps2_per_sqrt_Hz = params.imu.accel_walk_mps3_per_sqrt_Hz = 0.0;
   params.torque.noise_Nm = 0.0;
@@ -610,8 +612,8 @@ TEST(Sensors, ResetKeepsTheTurnOnAndForgetsTheMotion) {
 }
 
 TEST(Sensors, ReadingAllocatesNothing) {
-  Sensors sensors = MakeSensors(HonestSensors{}, {FaultOf(SensorFaultKind::kImuDropout, 0.5),
-                                                  FaultOf(SensorFaultKind::kFootDrift, 5.0)});
+  Sensors sensors = MakeSensors(RealisticSensors{}, {FaultOf(SensorFaultKind::kImuDropout, 0.5),
+                                                     FaultOf(SensorFaultKind::kFootDrift, 5.0)});
   const Truth truth = Standing();
   const test::AllocationGuard guard;
   (void)ReadFor(sensors, truth, 100);

@@ -48,7 +48,7 @@ TEST(DenseActiveSet, RandomProblemsMeetTheirOptimalityConditions) {
   }
 }
 
-TEST(DenseActiveSet, ContradictingRowsAreInfeasible) {
+TEST(DenseActiveSet, ConflictingRowsAreInfeasible) {
   core::Rng rng(42, 0, core::Stream::kSensor);
   DenseQp qp = SampleDense(rng, 3, 0, 2);
   qp.C.row(1) = qp.C.row(0);

@@ -11,10 +11,10 @@ namespace scoria::controller {
 /// Turns an excess over the nominal robot, Δπ = [Δm; Δ(m c_x); Δ(m c_y)] of a point mass at a known
 /// height in B, into what the controller is told. Masses stay positive and the trunk's centre of
 /// mass inside the rectangle of its hips.
-class HandOver {
+class ModelUpdateGate {
  public:
   /// `robot` is borrowed.
-  HandOver(const HandOverParams& params, const core::RobotDescription& robot) noexcept;
+  ModelUpdateGate(const UpdateGateParams& params, const core::RobotDescription& robot) noexcept;
 
   /// The nearest Δπ that a robot can have.
   [[nodiscard]] Vec3 Clamp(const Vec3& dpi) const noexcept;
@@ -27,16 +27,16 @@ class HandOver {
   /// Goes on from a trunk that the controller acts on already. @returns its Δπ.
   Vec3 Continue(const core::ModelParameters& in_use) noexcept;
 
-  [[nodiscard]] const HandOverParams& params() const noexcept { return params_; }
+  [[nodiscard]] const UpdateGateParams& params() const noexcept { return params_; }
 
  private:
   [[nodiscard]] core::ModelParameters CalcTrunk(const Vec3& dpi) const noexcept;
 
-  HandOverParams params_;
+  UpdateGateParams params_;
   const core::RobotDescription& robot_;
   Vec2 hips_m_ = Vec2::Zero();  // half sides of the rectangle
   Vec3 goal_ = Vec3::Zero();    // last of each of Δπ that was sure enough
-  Vec3 handed_ = Vec3::Zero();  // Δπ of the controller's model
+  Vec3 used_ = Vec3::Zero();    // Δπ of the controller's model
 };
 
 }  // namespace scoria::controller

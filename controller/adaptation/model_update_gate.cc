@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "controller/adaptation/hand_over.h"
+#include "controller/adaptation/model_update_gate.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace scoria::controller {
 
-HandOver::HandOver(const HandOverParams& params, const core::RobotDescription& robot) noexcept
+ModelUpdateGate::ModelUpdateGate(const UpdateGateParams& params,
+                                 const core::RobotDescription& robot) noexcept
     : params_(params), robot_(robot) {
   for (const core::LegDescription& leg : robot.legs) {
     const Vec3 hip = leg.joints[0].p_PJ + leg.joints[0].R_PJ * leg.joints[1].p_PJ;
@@ -14,7 +15,7 @@ HandOver::HandOver(const HandOverParams& params, const core::RobotDescription& r
   }
 }
 
-Vec3 HandOver::Clamp(const Vec3& dpi) const noexcept {
+Vec3 ModelUpdateGate::Clamp(const Vec3& dpi) const noexcept {
   if (!dpi.allFinite()) return Vec3::Zero();
   const core::Body& trunk = robot_.trunk;
   const double mass = std::clamp(trunk.mass_kg + dpi[0], params_.min_trunk_share * trunk.mass_kg,
@@ -27,15 +28,15 @@ Vec3 HandOver::Clamp(const Vec3& dpi) const noexcept {
   return out;
 }
 
-Vec3 HandOver::Continue(const core::ModelParameters& in_use) noexcept {
+Vec3 ModelUpdateGate::Continue(const core::ModelParameters& in_use) noexcept {
   const core::Body& trunk = robot_.trunk;
   const Vec2 excess =
       in_use.trunk.mass_kg * in_use.trunk.p_OC.head<2>() - trunk.mass_kg * trunk.p_OC.head<2>();
-  handed_ = goal_ = {in_use.trunk.mass_kg - trunk.mass_kg, excess.x(), excess.y()};
-  return handed_;
+  used_ = goal_ = {in_use.trunk.mass_kg - trunk.mass_kg, excess.x(), excess.y()};
+  return used_;
 }
 
-core::ModelParameters HandOver::CalcTrunk(const Vec3& dpi) const noexcept {
+core::ModelParameters ModelUpdateGate::CalcTrunk(const Vec3& dpi) const noexcept {
   const core::Body& trunk = robot_.trunk;
   core::ModelParameters out;
   out.trunk.mass_kg = trunk.mass_kg + dpi[0];
@@ -55,29 +56,29 @@ core::ModelParameters HandOver::CalcTrunk(const Vec3& dpi) const noexcept {
   return out;
 }
 
-Adaptation HandOver::Update(const Vec3& dpi_any, const Mat3& P, const core::WholeBody& nominal,
-                            double dt_s) noexcept {
+Adaptation ModelUpdateGate::Update(const Vec3& dpi_any, const Mat3& P,
+                                   const core::WholeBody& nominal, double dt_s) noexcept {
   const Vec3 dpi = Clamp(dpi_any);
   const Vec3 limit(params_.max_sigma_kg, params_.max_sigma_kgm, params_.max_sigma_kgm);
   const Vec3 variance = P.diagonal();
-  const Vec3 doubt = variance.cwiseQuotient(limit.cwiseProduct(limit));
+  const Vec3 variance_ratio = variance.cwiseQuotient(limit.cwiseProduct(limit));
   // Each as soon as it is sure: the mass long before where it lies, which until then stays.
   for (int i = 0; i < 3; ++i) {
-    if (doubt[i] <= 1.0) goal_[i] = dpi[i];
+    if (variance_ratio[i] <= 1.0) goal_[i] = dpi[i];
   }
 
   const Vec3 step = dt_s * Vec3(params_.rate_kgps, params_.rate_kgmps, params_.rate_kgmps);
-  const Vec3 next = Clamp(handed_ + (goal_ - handed_).cwiseMax(-step).cwiseMin(step));
+  const Vec3 next = Clamp(used_ + (goal_ - used_).cwiseMax(-step).cwiseMin(step));
   Adaptation out;
-  out.changed = next != handed_;
-  handed_ = next;
-  out.parameters = CalcTrunk(handed_);
+  out.changed = next != used_;
+  used_ = next;
+  out.parameters = CalcTrunk(used_);
   out.mass_kg = nominal.mass_kg + dpi[0];
   const Vec3 p_BC = nominal.state.R_WB.transpose() * (nominal.p_WC - nominal.state.p_WB);
   const Vec3 excess(dpi[1], dpi[2], dpi[0] * params_.payload_height_m);
   out.p_BC = (nominal.mass_kg * p_BC + excess) / out.mass_kg;
   out.P = P;
-  out.quality = 1.0 / (1.0 + std::max(0.0, doubt.maxCoeff()));
+  out.quality = 1.0 / (1.0 + std::max(0.0, variance_ratio.maxCoeff()));
   return out;
 }
 
