@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/config/scale.h"
 #include "core/math/so3.h"
 #include "core/rate.h"
 #include "core/stopwatch.h"
@@ -49,7 +50,8 @@ Controller::Controller(const ControllerParams& params, const core::RobotDescript
       swing_(params.swing, robot),
       mpc_(std::make_unique<MpcRunner>(params.mpc, robot, gravity_mps2)),
       wbc_(MakeWholeBodyController(params.wbc, robot)),
-      fallback_(MakeWholeBodyController(InverseDynamicsParams{}, robot)),
+      fallback_(
+          MakeWholeBodyController(core::Scaled(InverseDynamicsParams{}, robot.similarity), robot)),
       guard_(params.safety, robot, StandingPose(robot, robot.config.nominal_height_m)),
       quality_(params.quality),
       supervisor_(params.supervisor) {
@@ -259,6 +261,7 @@ void Controller::StepBody(SolverFault fault) noexcept {
   const WbcResult result =
       SolveBody({wb_, out_.legs, out_.feet, plan, plan_age_s, reference_.n_W}, fault);
   out_.wbc_solve_s = stopwatch.seconds();
+  torque_shortfall_ = CalcTorqueShortfall(plan);
   out_.wbc_updated = true;
   out_.wbc_status = result.status;
   out_.wbc_iterations = result.iterations;
@@ -294,19 +297,28 @@ WbcResult Controller::SolveBody(const WbcInput& in, SolverFault fault) noexcept 
   return fallback_->Solve(in);
 }
 
+/// What the planned forces of the stance legs ask of a motor beyond its limit, as a share of that;
+/// of the one that lacks most.
+double Controller::CalcTorqueShortfall(const ForcePlan& plan) const noexcept {
+  const LegArray<Vec3> f_F_W = plan.ForcesFor(out_.legs.Contacts(), reference_.n_W);
+  const LegArray<Vec3> effort_Nm = robot_.EffortLimits();
+  double shortfall = 0.0;
+  for (const Leg leg : kLegs) {
+    if (!out_.legs.InContact(leg)) continue;
+    const Vec3 tau_Nm = wb_.h_l[leg] - wb_.J_ll[leg].transpose() * f_F_W[leg];
+    shortfall =
+        std::max(shortfall, (tau_Nm.cwiseAbs().array() / effort_Nm[leg].array() - 1.0).maxCoeff());
+  }
+  return shortfall;
+}
+
 StageReports Controller::Report() const noexcept {
   StageReports reports{.legs = out_.legs, .contact = out_.contact.contact, .foot_lag_m = {}};
   const double plan_age_s = static_cast<double>(clock_.step() - active_.step) * clock_.step_s();
   reports.plan_age_share =
       active_.plan.valid ? plan_age_s / std::max(params_.safety.max_plan_age_s, plan_age_s) : 1.0;
   reports.body_answered = body_answered_;
-  const LegArray<Vec3> effort_Nm = robot_.EffortLimits();
-  for (const Leg leg : kLegs) {
-    constexpr double kSpent = 0.98;  // of a motor's limit
-    const Vec3& tau_Nm = out_.command.tau_Nm[leg];
-    if ((tau_Nm.cwiseAbs().array() > kSpent * effort_Nm[leg].array()).any())
-      reports.torque_spent = true;
-  }
+  reports.torque_shortfall = torque_shortfall_;
   for (const Leg leg : kLegs)
     reports.foot_lag_m[leg] = (out_.feet[leg].p_WF - wb_.p_WF[leg]).norm();
   const RobotState& s = out_.estimate.state;

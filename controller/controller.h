@@ -181,6 +181,7 @@ class Controller {
   void StepBody(SolverFault fault) noexcept;
   [[nodiscard]] WbcResult SolveBody(const WbcInput& in, SolverFault fault) noexcept;
   void Supervise() noexcept;
+  [[nodiscard]] double CalcTorqueShortfall(const ForcePlan& plan) const noexcept;
   [[nodiscard]] StageReports Report() const noexcept;
   void Act(const Transition& transition) noexcept;
   [[nodiscard]] ContactChoice ContactChoiceInForce() const noexcept;
@@ -190,6 +191,7 @@ class Controller {
   core::StepClock clock_;
   std::int64_t first_step_;
   int mpc_every_, wbc_every_;
+  double torque_shortfall_ = 0.0;
   bool operating_;
   core::WholeBodyModel model_;
   double foot_radius_m_;

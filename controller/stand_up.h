@@ -15,11 +15,16 @@ struct StandUpParams {
   double kp_Nm_per_rad = 100.0, kd_Nms_per_rad = 2.5;
   template <class Archive>
   void Serialize(Archive& a) {
-    a.Field("duration_s", duration_s, {.min = 0.1, .max = 20.0});
+    a.Field("duration_s", duration_s, {.min = 0.1, .max = 20.0, .scale = core::dimension::kTime});
     a.Field("hold_s", hold_s,
-            {.min = 0.0, .max = 20.0, .doc = "rest on the joint controller after standing up"});
-    a.Field("kp_Nm_per_rad", kp_Nm_per_rad, {.min = 1.0, .max = 1e3});
-    a.Field("kd_Nms_per_rad", kd_Nms_per_rad, {.min = 0.0, .max = 100.0});
+            {.min = 0.0,
+             .max = 20.0,
+             .doc = "rest on the joint controller after standing up",
+             .scale = core::dimension::kTime});
+    a.Field("kp_Nm_per_rad", kp_Nm_per_rad,
+            {.min = 1.0, .max = 1e5, .scale = core::dimension::kTorque});
+    a.Field("kd_Nms_per_rad", kd_Nms_per_rad,
+            {.min = 0.0, .max = 1e4, .scale = core::dimension::kJointDamping});
   }
   bool operator==(const StandUpParams&) const = default;
 };

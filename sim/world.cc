@@ -104,6 +104,8 @@ void World::Impl::Integrate(const Vec18& v) {
 void World::Impl::RecordContacts() {
   truth.f_F_W = foot_impulse_W = ZeroPerLeg();
   truth.f_normal_N = truth.penetration_m = LegArray<double>(0.0);
+  truth.contact = LegArray<bool>(false);
+  const double contact_force_N = 5.0 * robot.similarity.Factor(core::dimension::kForce);
   Vec3 ground_on_trunk_W = Vec3::Zero();
   for (const ContactPoint& c : contacts) {
     const Vec3 f_W = c.impulse_W / params.step_s;
@@ -113,6 +115,7 @@ void World::Impl::RecordContacts() {
     foot_impulse_W[leg] = c.impulse_W;
     truth.f_F_W[leg] = f_W;
     truth.f_normal_N[leg] = c.n_W.dot(f_W);
+    truth.contact[leg] = truth.f_normal_N[leg] > contact_force_N;
     truth.penetration_m[leg] = -c.gap_m;
     feet[leg].Finish(c, truth.state.p_WB + c.p_BP_W, params.step_s);
   }

@@ -56,6 +56,7 @@ struct Truth {
   LegArray<Vec3> p_WF = ZeroPerLeg();     // foot sphere centres
   LegArray<Vec3> f_F_W = ZeroPerLeg();    // N, ground on foot
   LegArray<double> f_normal_N;            // its share along the ground's normal
+  LegArray<bool> contact;                 // f_normal_N above 5 N on a Go2, as much on others
   LegArray<double> penetration_m;         // > 0 inside the ground
   double trunk_force_N = 0.0;             // magnitude of all ground force on the trunk
   EnergyLedger energy;

@@ -20,17 +20,20 @@ struct FallParams {
   double stand_up_s = 3.0;
   template <class Archive>
   void Serialize(Archive& a) {
-    a.Field("trunk_force_N", trunk_force_N, {.min = 0.0, .max = 1e4});
-    a.Field("trunk_force_s", trunk_force_s, {.min = 0.0, .max = 10.0});
+    a.Field("trunk_force_N", trunk_force_N,
+            {.min = 0.0, .max = 1e4, .scale = core::dimension::kForce});
+    a.Field("trunk_force_s", trunk_force_s,
+            {.min = 0.0, .max = 10.0, .scale = core::dimension::kTime});
     a.Field("tilt_rad", tilt_rad, {.min = 0.1, .max = 3.2});
     a.Field("height_share", height_share,
             {.min = 0.0, .max = 1.0, .doc = "of the nominal trunk height over the local ground"});
-    a.Field("height_s", height_s, {.min = 0.0, .max = 10.0});
+    a.Field("height_s", height_s, {.min = 0.0, .max = 10.0, .scale = core::dimension::kTime});
     a.Field("stand_up_s", stand_up_s,
             {.min = 0.0,
              .max = 600.0,
              .doc = "a robot that the controller has not taken over so long after the stand-up "
-                    "should have ended has fallen"});
+                    "should have ended has fallen",
+             .scale = core::dimension::kTime});
   }
   bool operator==(const FallParams&) const = default;
 };

@@ -13,8 +13,13 @@ struct StuckParams {
   double stuck_distance_m = 0.5, stuck_s = 10.0;
   template <class Archive>
   void Serialize(Archive& a) {
-    a.Field("stuck_distance_m", stuck_distance_m, {.min = 0.0, .max = 10.0});
-    a.Field("stuck_s", stuck_s, {.min = 1.0, .max = 1e4, .doc = "while commanded to walk"});
+    a.Field("stuck_distance_m", stuck_distance_m,
+            {.min = 0.0, .max = 10.0, .scale = core::dimension::kLength});
+    a.Field("stuck_s", stuck_s,
+            {.min = 1.0,
+             .max = 1e4,
+             .doc = "while commanded to walk",
+             .scale = core::dimension::kTime});
   }
   bool operator==(const StuckParams&) const = default;
 };

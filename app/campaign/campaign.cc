@@ -71,8 +71,9 @@ void AddJobs(const Campaign& campaign, const CampaignArm& arm, std::vector<std::
     const ConfigNode& set = campaign.sweep[i].sets[point[i]];
     if (set.kind == ConfigNode::Kind::kMap) core::MergeConfig(node, set);
   }
+  const Scenario read = ReadScenario(node);
   for (int k = 0; k < campaign.seeds; ++k) {
-    Scenario scenario = ReadScenario(node);
+    Scenario scenario = read;
     CampaignJob job;
     job.arm = arm.name;
     job.seed = scenario.seed = campaign.first_seed + static_cast<std::uint64_t>(k);

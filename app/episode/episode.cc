@@ -92,9 +92,7 @@ controller::TrueInputs Episode::TrueInputsNow() const {
   if (truth_for_.state) inputs.state = truth.state;
   if (truth_for_.model) inputs.trunk = core::ModelParameters{truth.trunk};
   if (!truth_for_.contact) return inputs;
-  inputs.contact.emplace();
-  for (const Leg leg : kLegs)
-    (*inputs.contact)[leg] = truth.f_normal_N[leg] > sim::kTrueContactForce_N;
+  inputs.contact = truth.contact;
   return inputs;
 }
 

@@ -16,7 +16,11 @@ struct FallParams : analysis::FallParams, analysis::StuckParams {
     analysis::StuckParams::Serialize(a);
     a.Field("lie_s", lie_s,
             {.min = 0.0, .max = 10.0, .doc = "before the operator lifts the robot"});
-    a.Field("stand_s", stand_s, {.min = 0.0, .max = 10.0, .doc = "standing before walking on"});
+    a.Field("stand_s", stand_s,
+            {.min = 0.0,
+             .max = 10.0,
+             .doc = "standing before walking on",
+             .scale = core::dimension::kTime});
   }
 };
 

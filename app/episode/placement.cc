@@ -153,11 +153,12 @@ RobotState PlaceStanding(const core::RobotDescription& robot, const terrains::He
 
 RobotState PlaceLying(const core::RobotDescription& robot, const terrains::Heightfield& ground,
                       const Place& place) {
-  constexpr double kBelly_m = 0.07;  // the trunk rests on the ground before the folded feet do
+  // The trunk rests on the ground before the folded feet do.
+  const double belly_m = 0.07 * robot.similarity.length;
   RobotState state;
   const Vec2& p_WB = place.p_WB;
   state.R_WB = core::RotationZ(place.yaw_rad);
-  state.p_WB = {p_WB.x(), p_WB.y(), ground.HeightAt(p_WB.x(), p_WB.y()) + kBelly_m};
+  state.p_WB = {p_WB.x(), p_WB.y(), ground.HeightAt(p_WB.x(), p_WB.y()) + belly_m};
   for (const Leg leg : kLegs) {
     state.q[leg] = core::LyingPose(robot, leg);
     const Vec3 p_BF_W = state.R_WB * core::CalcLegKinematics(robot.legs[leg], state.q[leg]).p_BF;

@@ -27,12 +27,20 @@ struct RouteParams {
     a.Field("speed_mps", speed_mps, {.min = 0.01, .max = 5.0});
     a.Field("distance_m", distance_m, {.min = 0.1, .max = 1e5, .doc = "to walk; the loop repeats"});
     a.Field("loop_radius_m", loop_radius_m, {.min = 1.0, .max = 100.0});
-    a.Field("look_ahead_m", look_ahead_m, {.min = 0.1, .max = 5.0});
-    a.Field("yaw_gain_per_s", yaw_gain_per_s, {.min = 0.0, .max = 20.0});
-    a.Field("max_yaw_rate_radps", max_yaw_rate_radps, {.min = 0.0, .max = 5.0});
-    a.Field("lag_s", lag_s, {.min = 0.0, .max = 5.0, .doc = "of the operator's hand"});
+    a.Field("look_ahead_m", look_ahead_m,
+            {.min = 0.1, .max = 5.0, .scale = core::dimension::kLength});
+    a.Field("yaw_gain_per_s", yaw_gain_per_s,
+            {.min = 0.0, .max = 20.0, .scale = core::dimension::kRate});
+    a.Field("max_yaw_rate_radps", max_yaw_rate_radps,
+            {.min = 0.0, .max = 5.0, .scale = core::dimension::kRate});
+    a.Field(
+        "lag_s", lag_s,
+        {.min = 0.0, .max = 5.0, .doc = "of the operator's hand", .scale = core::dimension::kTime});
     a.Field("max_step_m", max_step_m,
-            {.min = 0.01, .max = 1.0, .doc = "worth a detour ten times as long"});
+            {.min = 0.01,
+             .max = 1.0,
+             .doc = "worth a detour ten times as long",
+             .scale = core::dimension::kLength});
     a.Field("max_slope_rad", max_slope_rad, {.min = 0.01, .max = 1.5, .doc = "likewise"});
   }
 };

@@ -26,7 +26,7 @@ logs::TrueContactsRow MakeTrueContacts(const sim::Truth& truth) {
   row.p_WF_m = Flatten(truth.p_WF);
   row.f_F_W_N = Flatten(truth.f_F_W);
   for (const Leg leg : kLegs) {
-    row.contact[static_cast<std::size_t>(leg)] = truth.f_normal_N[leg] > sim::kTrueContactForce_N;
+    row.contact[static_cast<std::size_t>(leg)] = truth.contact[leg];
   }
   row.trunk_force_N = truth.trunk_force_N;
   return row;

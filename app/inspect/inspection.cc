@@ -14,7 +14,9 @@
 #include "analysis/terrain/terrain_view.h"
 #include "app/run/robot_warnings.h"
 #include "app/scenario/config_kinds.h"
+#include "app/scenario/scenario.h"
 #include "controller/stand_up.h"
+#include "core/config/scale.h"
 #include "core/files.h"
 #include "core/robot/normalise.h"
 #include "core/robot/whole_body.h"
@@ -70,12 +72,12 @@ void AddInfo(CLI::App& app) {
       app.add_subcommand("info", "print what a robot's files say, and what looks wrong");
   info->add_option("robot", *file, "robot YAML")->required();
   info->callback([file] {
-    const auto config = core::ReadConfig<core::RobotConfig>(LoadKind("robot", *file, {}));
-    const core::RobotDescription robot = core::ReadRobot(config);
+    const core::RobotDescription robot = ReadScaledRobot(LoadKind("robot", *file, {}));
     PrintRobot(robot);
     std::vector<std::string> warnings = core::FindSuspicions(robot);
     constexpr double kEarth_mps2 = 9.81;
-    for (std::string& warning : WalkWarnings(robot, controller::MpcParams{}, kEarth_mps2))
+    for (std::string& warning :
+         WalkWarnings(robot, core::Scaled(controller::MpcParams{}, robot.similarity), kEarth_mps2))
       warnings.push_back(std::move(warning));
     for (const std::string& warning : warnings) fmt::print("warning: {}\n", warning);
   });

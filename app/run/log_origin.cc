@@ -136,7 +136,7 @@ LogOrigin ReadLogOrigin(const fs::path& log, const std::vector<std::string>& ove
   const logs::LogMetadata record = ReadScenarioRecord(log);
   core::ConfigNode node = core::ParseConfig(record.at("scenario"), log.string());
   for (const std::string& assignment : overrides) core::ApplyOverride(node, assignment);
-  LogOrigin origin{log, ReadScenario(node), record.at("urdf"), {}, {}};
+  LogOrigin origin{log, {}, record.at("urdf"), {}, {}};
   try {
     if (record.contains("meshes")) origin.meshes = MeshesFromJson(json::parse(record.at("meshes")));
     if (record.contains("heightmap_hash"))
@@ -145,6 +145,9 @@ LogOrigin ReadLogOrigin(const fs::path& log, const std::vector<std::string>& ove
     throw std::runtime_error(
         fmt::format("{}: the record of its scenario is damaged: {}", log.string(), e.what()));
   }
+  const core::RobotDescription robot =
+      core::MakeRobot(ReadRobotSection(node), origin.urdf_text, origin.meshes);
+  origin.scenario = ReadScenario(node, robot.similarity);
   return origin;
 }
 

@@ -25,6 +25,11 @@ std::string Range(const FieldInfo& f) {
                      std::isinf(f.max) ? "∞" : fmt::format("{:g}", f.max));
 }
 
+/// Of the Go2; with what it is multiplied by for another robot.
+std::string DefaultText(const FieldInfo& f) {
+  return f.scale.empty() ? f.default_value : fmt::format("{} ∝ {}", f.default_value, f.scale);
+}
+
 void AddRows(const std::vector<FieldInfo>& fields, const std::string& prefix, std::string& out) {
   for (const FieldInfo& f : fields) {
     const std::string key = prefix + f.key;
@@ -32,7 +37,7 @@ void AddRows(const std::vector<FieldInfo>& fields, const std::string& prefix, st
     out += fmt::format("| `{}` | {} | {} | {} | {} |\n", key, f.kind,
                        f.required                     ? "required"
                        : nested && f.kind == "struct" ? ""
-                                                      : f.default_value,
+                                                      : DefaultText(f),
                        Range(f), f.doc);
     if (f.kind == "variant") {
       for (const FieldInfo& alternative : f.children) {

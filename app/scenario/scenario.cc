@@ -7,6 +7,7 @@
 
 #include "app/scenario/config_kinds.h"
 #include "core/rate.h"
+#include "core/robot_files/load.h"
 
 namespace scoria::app {
 namespace {
@@ -81,7 +82,8 @@ std::vector<controller::ControllerParams> ChangedControllers(const Scenario& sce
     try {
       for (const std::string& assignment : change.set)
         core::ApplyAssignment(node, assignment, {assignment, 0, 0, true});
-      changed.push_back(core::ReadConfig<controller::ControllerParams>(node));
+      core::ConfigContext context{.similarity = scenario.similarity, .notes = {}};
+      changed.push_back(core::ReadConfig<controller::ControllerParams>(node, context));
     } catch (const core::ConfigError& e) {
       throw core::ConfigError({}, NameOfSet(changed.size()), e.what());
     }
@@ -96,11 +98,33 @@ bool NeedsTruthEver(const Scenario& scenario) {
                      [](const auto& params) { return controller::NeedsTruth(params); });
 }
 
-Scenario ReadScenario(const core::ConfigNode& node) {
-  core::ConfigNotes notes;
-  auto scenario = core::ReadConfig<Scenario>(node, notes);
-  scenario.notes = std::move(notes);
+core::RobotConfig ReadRobotSection(const core::ConfigNode& scenario) {
+  core::RobotConfig config;
+  core::ConfigContext context;
+  const core::ConfigNode* robot = scenario.Find("robot");
+  if (robot == nullptr)
+    throw core::ConfigError(scenario.origin, "robot", "is missing and has no default");
+  core::ConfigReader::Read(*robot, "robot", context, config);
+  return config;
+}
+
+core::RobotDescription ReadScaledRobot(const core::ConfigNode& robot) {
+  const auto own_size = core::ReadConfig<core::RobotConfig>(robot);
+  core::ConfigContext context{.similarity = core::ReadRobot(own_size).similarity, .notes = {}};
+  return core::ReadRobot(core::ReadConfig<core::RobotConfig>(robot, context));
+}
+
+Scenario ReadScenario(const core::ConfigNode& node, const core::Similarity& similarity) {
+  core::ConfigContext context{.similarity = similarity, .notes = {}};
+  Scenario scenario;
+  scenario.similarity = similarity;
+  core::ConfigReader::Read(node, "", context, scenario);
+  scenario.notes = std::move(context.notes);
   return scenario;
+}
+
+Scenario ReadScenario(const core::ConfigNode& node) {
+  return ReadScenario(node, core::ReadRobot(ReadRobotSection(node)).similarity);
 }
 
 Scenario LoadScenario(const std::filesystem::path& file,

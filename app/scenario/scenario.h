@@ -122,7 +122,8 @@ struct Scenario {
   FallParams fall;
   int max_falls = 1000;
   LogParams log;
-  core::ConfigNotes notes;  // about the text that it was read from; not part of it
+  core::Similarity similarity;  // of the robot: what the text does not give is scaled by it
+  core::ConfigNotes notes;      // about the text that it was read from
   template <class Archive>
   void Serialize(Archive& a) {
     a.Required("name", name);
@@ -156,7 +157,20 @@ struct Scenario {
 /// @returns true if the controller needs the truth now or after a change.
 [[nodiscard]] bool NeedsTruthEver(const Scenario& scenario);
 
+/// The robot's section of a scenario, its defaults unscaled.
 /// Errors: core::ConfigError.
+[[nodiscard]] core::RobotConfig ReadRobotSection(const core::ConfigNode& scenario);
+
+/// A robot from its YAML, with the defaults of its size.
+/// Errors: core::ConfigError.
+[[nodiscard]] core::RobotDescription ReadScaledRobot(const core::ConfigNode& robot);
+
+/// @param similarity  of the robot that the scenario names.
+/// Errors: core::ConfigError.
+[[nodiscard]] Scenario ReadScenario(const core::ConfigNode& node,
+                                    const core::Similarity& similarity);
+
+/// As above, the robot's files read for it.
 [[nodiscard]] Scenario ReadScenario(const core::ConfigNode& node);
 
 /// Reads and checks a scenario file with command-line overrides "key.sub=value".

@@ -18,20 +18,35 @@ struct UpdateGateParams {
   double min_trunk_share = 0.3, max_payload_kg = 15.0;
   template <class Archive>
   void Serialize(Archive& a) {
-    a.Field(
-        "max_sigma_kg", max_sigma_kg,
-        {.min = 0.0, .max = 100.0, .doc = "a mass less sure than this does not enter the model"});
+    a.Field("max_sigma_kg", max_sigma_kg,
+            {.min = 0.0,
+             .max = 100.0,
+             .doc = "a mass less sure than this does not enter the model",
+             .scale = core::dimension::kMass});
     a.Field("max_sigma_kgm", max_sigma_kgm,
-            {.min = 0.0, .max = 10.0, .doc = "likewise of mass times offset of the COM"});
+            {.min = 0.0,
+             .max = 10.0,
+             .doc = "likewise of mass times offset of the COM",
+             .scale = core::dimension::kMassMoment});
     a.Field("rate_kgps", rate_kgps,
-            {.min = 0.0, .max = 1000.0, .doc = "fastest change of the model's mass"});
+            {.min = 0.0,
+             .max = 1000.0,
+             .doc = "fastest change of the model's mass",
+             .scale = core::dimension::kMass / core::dimension::kTime});
     a.Field("rate_kgmps", rate_kgmps,
-            {.min = 0.0, .max = 100.0, .doc = "of its mass times offset of the COM"});
+            {.min = 0.0,
+             .max = 100.0,
+             .doc = "of its mass times offset of the COM",
+             .scale = core::dimension::kMassMoment / core::dimension::kTime});
     a.Field("payload_height_m", payload_height_m,
-            {.min = -1.0, .max = 1.0, .doc = "over B, where what is added is taken to be"});
+            {.min = -1.0,
+             .max = 1.0,
+             .doc = "over B, where what is added is taken to be",
+             .scale = core::dimension::kLength});
     a.Field("min_trunk_share", min_trunk_share,
             {.min = 0.05, .max = 1.0, .doc = "least mass of the trunk over the nominal one"});
-    a.Field("max_payload_kg", max_payload_kg, {.min = 0.0, .max = 100.0});
+    a.Field("max_payload_kg", max_payload_kg,
+            {.min = 0.0, .max = 100.0, .scale = core::dimension::kMass});
   }
   bool operator==(const UpdateGateParams&) const = default;
 };
@@ -71,14 +86,24 @@ struct AdaptationKfParams {
     a.Field("acceleration", acceleration,
             {.doc = "false: the paper's balance with the trunk as if it did not accelerate"});
     a.Field("walk_kg_per_sqrts", walk_kg_per_sqrts,
-            {.min = 0.0, .max = 100.0, .doc = "random walk of the mass"});
+            {.min = 0.0,
+             .max = 100.0,
+             .doc = "random walk of the mass",
+             .scale = core::dimension::kMass / core::Pow(core::dimension::kTime, 0.5)});
     a.Field("walk_kgm_per_sqrts", walk_kgm_per_sqrts,
-            {.min = 0.0, .max = 10.0, .doc = "of the mass times offset of the COM"});
+            {.min = 0.0,
+             .max = 10.0,
+             .doc = "of the mass times offset of the COM",
+             .scale = core::dimension::kMassMoment / core::Pow(core::dimension::kTime, 0.5)});
     a.Field("force_N", force_N,
-            {.min = 1e-3, .max = 1e4, .doc = "standard deviation of an update's force"});
-    a.Field("moment_Nm", moment_Nm, {.min = 1e-3, .max = 1e4});
-    a.Field("initial_kg", initial_kg, {.min = 1e-6, .max = 100.0});
-    a.Field("initial_kgm", initial_kgm, {.min = 1e-6, .max = 10.0});
+            {.min = 1e-3,
+             .max = 1e4,
+             .doc = "standard deviation of an update's force",
+             .scale = core::dimension::kForce});
+    a.Field("moment_Nm", moment_Nm, {.min = 1e-3, .max = 1e4, .scale = core::dimension::kTorque});
+    a.Field("initial_kg", initial_kg, {.min = 1e-6, .max = 100.0, .scale = core::dimension::kMass});
+    a.Field("initial_kgm", initial_kgm,
+            {.min = 1e-6, .max = 10.0, .scale = core::dimension::kMassMoment});
     a.Field("update_gate", update_gate, {.was = "hand_over"});
   }
   bool operator==(const AdaptationKfParams&) const = default;
@@ -96,12 +121,19 @@ struct RlsParams {
   void Serialize(Archive& a) {
     a.Field("rate_Hz", rate_Hz, {.min = 1.0, .max = 1000.0});
     a.Field("memory_s", memory_s,
-            {.min = 0.01, .max = 1e4, .doc = "after which a measurement counts 1/e"});
-    a.Field("force_N", force_N, {.min = 1e-3, .max = 1e4});
-    a.Field("moment_Nm", moment_Nm, {.min = 1e-3, .max = 1e4});
+            {.min = 0.01,
+             .max = 1e4,
+             .doc = "after which a measurement counts 1/e",
+             .scale = core::dimension::kTime});
+    a.Field("force_N", force_N, {.min = 1e-3, .max = 1e4, .scale = core::dimension::kForce});
+    a.Field("moment_Nm", moment_Nm, {.min = 1e-3, .max = 1e4, .scale = core::dimension::kTorque});
     a.Field("initial_kg", initial_kg,
-            {.min = 1e-6, .max = 100.0, .doc = "also the most that forgetting can forget"});
-    a.Field("initial_kgm", initial_kgm, {.min = 1e-6, .max = 10.0});
+            {.min = 1e-6,
+             .max = 100.0,
+             .doc = "also the most that forgetting can forget",
+             .scale = core::dimension::kMass});
+    a.Field("initial_kgm", initial_kgm,
+            {.min = 1e-6, .max = 10.0, .scale = core::dimension::kMassMoment});
     a.Field("update_gate", update_gate, {.was = "hand_over"});
   }
   bool operator==(const RlsParams&) const = default;
@@ -116,16 +148,27 @@ struct StepDetectionParams {
   template <class Archive>
   void Serialize(Archive& a) {
     a.Field("smooth_s", smooth_s,
-            {.min = 0.0, .max = 10.0, .doc = "low pass over the ripple of the gait"});
+            {.min = 0.0,
+             .max = 10.0,
+             .doc = "low pass over the ripple of the gait",
+             .scale = core::dimension::kTime});
     a.Field("drift_kg", drift_kg,
-            {.min = 1e-3, .max = 100.0, .doc = "an error below this is never a change"});
-    a.Field("drift_kgm", drift_kgm, {.min = 1e-4, .max = 10.0});
+            {.min = 1e-3,
+             .max = 100.0,
+             .doc = "an error below this is never a change",
+             .scale = core::dimension::kMass});
+    a.Field("drift_kgm", drift_kgm,
+            {.min = 1e-4, .max = 10.0, .scale = core::dimension::kMassMoment});
     a.Field("threshold_s", threshold_s,
             {.min = 1e-3,
              .max = 10.0,
-             .doc = "an error of twice the drift is a change after this time"});
+             .doc = "an error of twice the drift is a change after this time",
+             .scale = core::dimension::kTime});
     a.Field("refill_s", refill_s,
-            {.min = 0.0, .max = 10.0, .doc = "after a change: no other is looked for"});
+            {.min = 0.0,
+             .max = 10.0,
+             .doc = "after a change: no other is looked for",
+             .scale = core::dimension::kTime});
   }
   bool operator==(const StepDetectionParams&) const = default;
 };
@@ -142,7 +185,10 @@ struct TareParams {
     a.Field("enabled", enabled,
             {.doc = "the robot starts unloaded: learn what the torques misread"});
     a.Field("duration_s", duration_s,
-            {.min = 0.1, .max = 600.0, .doc = "of work, better in motion"});
+            {.min = 0.1,
+             .max = 600.0,
+             .doc = "of work, better in motion",
+             .scale = core::dimension::kTime});
     a.Field("gain_share", gain_share,
             {.min = 0.0,
              .max = 1.0,
@@ -168,17 +214,30 @@ struct KfPlusParams {
   void Serialize(Archive& a) {
     a.Field("rate_Hz", rate_Hz, {.min = 1.0, .max = 1000.0});
     a.Field("start_s", start_s,
-            {.min = 0.0, .max = 10.0, .doc = "work before the readings are believed"});
-    a.Field("walk_kg_per_sqrts", walk_kg_per_sqrts, {.min = 0.0, .max = 100.0});
-    a.Field("walk_kgm_per_sqrts", walk_kgm_per_sqrts, {.min = 0.0, .max = 10.0});
+            {.min = 0.0,
+             .max = 10.0,
+             .doc = "work before the readings are believed",
+             .scale = core::dimension::kTime});
+    a.Field("walk_kg_per_sqrts", walk_kg_per_sqrts,
+            {.min = 0.0,
+             .max = 100.0,
+             .scale = core::dimension::kMass / core::Pow(core::dimension::kTime, 0.5)});
+    a.Field("walk_kgm_per_sqrts", walk_kgm_per_sqrts,
+            {.min = 0.0,
+             .max = 10.0,
+             .scale = core::dimension::kMassMoment / core::Pow(core::dimension::kTime, 0.5)});
     a.Field("force_N", force_N,
-            {.min = 1e-3, .max = 1e4, .doc = "standard deviation of an update's force"});
-    a.Field("moment_Nm", moment_Nm, {.min = 1e-3, .max = 1e4});
+            {.min = 1e-3,
+             .max = 1e4,
+             .doc = "standard deviation of an update's force",
+             .scale = core::dimension::kForce});
+    a.Field("moment_Nm", moment_Nm, {.min = 1e-3, .max = 1e4, .scale = core::dimension::kTorque});
     a.Field(
         "huber", huber,
         {.min = 0.1, .max = 1e3, .doc = "standard deviations from which on an error counts less"});
-    a.Field("initial_kg", initial_kg, {.min = 1e-6, .max = 100.0});
-    a.Field("initial_kgm", initial_kgm, {.min = 1e-6, .max = 10.0});
+    a.Field("initial_kg", initial_kg, {.min = 1e-6, .max = 100.0, .scale = core::dimension::kMass});
+    a.Field("initial_kgm", initial_kgm,
+            {.min = 1e-6, .max = 10.0, .scale = core::dimension::kMassMoment});
     a.Field(
         "presliding_rad", presliding_rad,
         {.min = 0.0,

@@ -111,7 +111,8 @@ Vec3 WrenchBalance::CalcGroundNormal_W() const noexcept {
   const Vec3 n = (p[Leg::kFL] - p[Leg::kHR]).cross(p[Leg::kHL] - p[Leg::kFR]);
   const double length = n.norm();
   constexpr double kLeast_m2 = 0.01;  // feet nearly in line span no plane
-  return length > kLeast_m2 ? Vec3(n / length) : Vec3(Vec3::UnitZ());
+  const double size_m = robot_.similarity.length;
+  return length > kLeast_m2 * size_m * size_m ? Vec3(n / length) : Vec3(Vec3::UnitZ());
 }
 
 /// The observer's force acts at the foot sphere's centre F, the ground's where the sphere touches:

@@ -19,7 +19,10 @@ struct FusionParams {
   template <class Archive>
   void Serialize(Archive& a) {
     a.Field("phase_sigma_s", phase_sigma_s,
-            {.min = 1e-4, .max = 1.0, .doc = "scatter of touchdown and lift-off about the plan"});
+            {.min = 1e-4,
+             .max = 1.0,
+             .doc = "scatter of touchdown and lift-off about the plan",
+             .scale = core::dimension::kTime});
     a.Field("force_mean", force_mean,
             {.min = 0.0,
              .max = 1.0,
@@ -27,9 +30,15 @@ struct FusionParams {
     a.Field("force_sigma", force_sigma,
             {.min = 1e-4, .max = 1.0, .doc = "its scatter; share of the weight"});
     a.Field("height_mean_m", height_mean_m,
-            {.min = -0.5, .max = 0.5, .doc = "foot over the ground plane, likewise"});
+            {.min = -0.5,
+             .max = 0.5,
+             .doc = "foot over the ground plane, likewise",
+             .scale = core::dimension::kLength});
     a.Field("height_sigma_m", height_sigma_m,
-            {.min = 1e-4, .max = 1.0, .doc = "its scatter: how rough the ground is"});
+            {.min = 1e-4,
+             .max = 1.0,
+             .doc = "its scatter: how rough the ground is",
+             .scale = core::dimension::kLength});
     a.Field(
         "phase_deviation", phase_deviation,
         {.min = 0.01,

@@ -23,16 +23,23 @@ struct FootSensorParams {
   template <class Archive>
   void Serialize(Archive& a) {
     a.Field("update_s", update_s,
-            {.min = 0.01, .max = 1.0, .doc = "period at which the threshold is set anew"});
+            {.min = 0.01,
+             .max = 1.0,
+             .doc = "period at which the threshold is set anew",
+             .scale = core::dimension::kTime});
     a.Field(
         "margin_counts", margin_counts,
         {.min = 0.0,
          .max = 1000.0,
          .doc = "threshold over the least reading and below the largest, the lower of the two"});
     a.Field("min_window_s", min_window_s,
-            {.min = 0.1, .max = 5.0, .doc = "of the least reading of the foot in the air"});
-    a.Field("max_window_s", max_window_s,
-            {.min = 0.1, .max = 5.0, .doc = "of the largest reading"});
+            {.min = 0.1,
+             .max = 5.0,
+             .doc = "of the least reading of the foot in the air",
+             .scale = core::dimension::kTime});
+    a.Field(
+        "max_window_s", max_window_s,
+        {.min = 0.1, .max = 5.0, .doc = "of the largest reading", .scale = core::dimension::kTime});
     a.Field("initial_threshold_counts", initial_threshold_counts,
             {.min = 0.0, .max = 1e5, .doc = "until the foot was in the air once"});
     a.Field("max_threshold_counts", max_threshold_counts,
@@ -116,12 +123,16 @@ struct HealthParams {
   template <class Archive>
   void Serialize(Archive& a) {
     a.Field("stuck_s", stuck_s,
-            {.min = 0.0, .max = 10.0, .doc = "the very same count for so long is suspicious"});
+            {.min = 0.0,
+             .max = 10.0,
+             .doc = "the very same count for so long is suspicious",
+             .scale = core::dimension::kTime});
     a.Field("stuck_force_N", stuck_force_N,
             {.min = 0.0,
              .max = 1e4,
              .doc = "and means a stuck sensor if the observer's force has become so different "
-                    "meanwhile, for longer than a transition"});
+                    "meanwhile, for longer than a transition",
+             .scale = core::dimension::kForce});
     a.Field("saturated_counts", saturated_counts,
             {.min = 0.0,
              .max = 1e6,
@@ -129,17 +140,23 @@ struct HealthParams {
     a.Field("transition_s", transition_s,
             {.min = 0.0,
              .max = 0.5,
-             .doc = "around touchdown and lift-off sensor and observer may differ"});
+             .doc = "around touchdown and lift-off sensor and observer may differ",
+             .scale = core::dimension::kTime});
     a.Field("sure", sure,
             {.min = 0.5,
              .max = 1.0,
              .doc = "the observer disagrees only when its probability is beyond this, or below 1 - "
                     "this"});
     a.Field("moving_mps", moving_mps,
-            {.min = 0.0, .max = 100.0, .doc = "a foot faster than this is not on the ground"});
-    a.Field(
-        "disagree_s", disagree_s,
-        {.min = 0.0, .max = 10.0, .doc = "disagreement, summed up, that discredits the sensor"});
+            {.min = 0.0,
+             .max = 100.0,
+             .doc = "a foot faster than this is not on the ground",
+             .scale = core::dimension::kSpeed});
+    a.Field("disagree_s", disagree_s,
+            {.min = 0.0,
+             .max = 10.0,
+             .doc = "disagreement, summed up, that discredits the sensor",
+             .scale = core::dimension::kTime});
     a.Field(
         "forgive", forgive,
         {.min = 0.0, .max = 10.0, .doc = "disagreement that is forgotten per time in agreement"});
@@ -148,9 +165,11 @@ struct HealthParams {
              .max = 1e5,
              .doc = "change of the reading in the air since the start that discredits the sensor"});
     a.Field("match", match);
-    a.Field(
-        "recover_s", recover_s,
-        {.min = 0.0, .max = 1e4, .doc = "least time without a fault until it is trusted again"});
+    a.Field("recover_s", recover_s,
+            {.min = 0.0,
+             .max = 1e4,
+             .doc = "least time without a fault until it is trusted again",
+             .scale = core::dimension::kTime});
     a.Field("recover_transitions", recover_transitions,
             {.min = 0,
              .max = 1000,

@@ -20,16 +20,19 @@ struct ForceMatchParams {
         {.min = 0.05,
          .max = 60.0,
          .doc = "time constant of the zero, which drifts, in time in the air; nothing is judged "
-                "before so long in the air and on the ground"});
+                "before so long in the air and on the ground",
+         .scale = core::dimension::kTime});
     a.Field("gain_s", gain_s,
             {.min = 0.05,
              .max = 600.0,
-             .doc = "time constant of the gain, which hardly changes, in time on the ground"});
+             .doc = "time constant of the gain, which hardly changes, in time on the ground",
+             .scale = core::dimension::kTime});
     a.Field("tolerance_N", tolerance_N,
             {.min = 0.0,
              .max = 1e4,
              .doc = "by so much the counts may mean more than the observer's force for good: joint "
-                    "friction"});
+                    "friction",
+             .scale = core::dimension::kForce});
     a.Field("tolerance_share", tolerance_share,
             {.min = 0.0,
              .max = 10.0,
@@ -42,11 +45,13 @@ struct ForceMatchParams {
     a.Field("cap_N", cap_N,
             {.min = 0.0,
              .max = 1e4,
-             .doc = "a larger excess counts as this: impacts, which the observer smooths"});
+             .doc = "a larger excess counts as this: impacts, which the observer smooths",
+             .scale = core::dimension::kForce});
     a.Field("impulse_Ns", impulse_Ns,
             {.min = 0.0,
              .max = 100.0,
-             .doc = "excess over the tolerance, summed up over time, that is a fault"});
+             .doc = "excess over the tolerance, summed up over time, that is a fault",
+             .scale = core::dimension::kForce * core::dimension::kTime});
   }
   bool operator==(const ForceMatchParams&) const = default;
 };

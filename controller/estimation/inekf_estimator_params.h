@@ -31,21 +31,40 @@ struct InekfEstimatorParams {
             {.min = 0.0, .max = 10.0, .doc = "density of the accelerometer's white noise"});
     a.Field("accel_walk_mps2_per_sqrts", accel_walk_mps2_per_sqrts, {.min = 0.0, .max = 10.0});
     a.Field("foot_slip_m_per_sqrts", foot_slip_m_per_sqrts,
-            {.min = 0.0, .max = 10.0, .doc = "how far a standing foot creeps"});
+            {.min = 0.0,
+             .max = 10.0,
+             .doc = "how far a standing foot creeps",
+             .scale = core::dimension::kLength / core::Pow(core::dimension::kTime, 0.5)});
     a.Field("foot_position_m", foot_position_m,
-            {.min = 1e-5, .max = 1.0, .doc = "error of a foot's place by the joint angles"});
+            {.min = 1e-5,
+             .max = 1.0,
+             .doc = "error of a foot's place by the joint angles",
+             .scale = core::dimension::kLength});
     a.Field("impact_s", impact_s,
-            {.min = 0.0, .max = 1.0, .doc = "a foot is used so long after it touched"});
+            {.min = 0.0,
+             .max = 1.0,
+             .doc = "a foot is used so long after it touched",
+             .scale = core::dimension::kTime});
     a.Field("fresh_sink_m", fresh_sink_m,
-            {.min = 0.0, .max = 1.0, .doc = "how far a foot may sink after it touched"});
+            {.min = 0.0,
+             .max = 1.0,
+             .doc = "how far a foot may sink after it touched",
+             .scale = core::dimension::kLength});
     a.Field("fresh_s", fresh_s,
-            {.min = 1e-3, .max = 10.0, .doc = "time constant with which that ends"});
+            {.min = 1e-3,
+             .max = 10.0,
+             .doc = "time constant with which that ends",
+             .scale = core::dimension::kTime});
     a.Field("foot_compliance_m_per_N", foot_compliance_m_per_N,
             {.min = 0.0,
              .max = 0.1,
-             .doc = "how far a foot may sink into soft ground per change of its load"});
+             .doc = "how far a foot may sink into soft ground per change of its load",
+             .scale = core::dimension::kLength / core::dimension::kForce});
     a.Field("load_change_s", load_change_s,
-            {.min = 1e-3, .max = 1.0, .doc = "over which a change of load counts as one"});
+            {.min = 1e-3,
+             .max = 1.0,
+             .doc = "over which a change of load counts as one",
+             .scale = core::dimension::kTime});
     a.Field("sink_aside", sink_aside,
             {.min = 0.0, .max = 1.0, .doc = "share of a sinking foot's motion along the ground"});
     a.Field("rest", rest);
@@ -58,7 +77,8 @@ struct InekfEstimatorParams {
              .max = 1e6,
              .doc = "a foot whose innovation, averaged over slip_window_s, exceeds this (squared, "
                     "normalised, 3 degrees of freedom) has slipped and is set down anew"});
-    a.Field("slip_window_s", slip_window_s, {.min = 0.001, .max = 1.0});
+    a.Field("slip_window_s", slip_window_s,
+            {.min = 0.001, .max = 1.0, .scale = core::dimension::kTime});
     a.Field("saturated_scale", saturated_scale,
             {.min = 1.0, .max = 1e6, .doc = "of the IMU's noise while it saturates"});
     a.Field("model_rolling", model_rolling, {.doc = "the round foot rolls on the ground"});

@@ -21,11 +21,19 @@ struct LinearKfParams {
             {.min = 0.0, .max = 10.0, .doc = "of the measured gravity's pull on the attitude"});
     a.Field("bias_gain_radps2", bias_gain_radps2, {.min = 0.0, .max = 10.0});
     a.Field("accel_mps_per_sqrts", accel_mps_per_sqrts, {.min = 0.0, .max = 10.0});
-    a.Field("foot_slip_m_per_sqrts", foot_slip_m_per_sqrts, {.min = 0.0, .max = 10.0});
+    a.Field("foot_slip_m_per_sqrts", foot_slip_m_per_sqrts,
+            {.min = 0.0,
+             .max = 10.0,
+             .scale = core::dimension::kLength / core::Pow(core::dimension::kTime, 0.5)});
     a.Field("foot_air_m_per_sqrts", foot_air_m_per_sqrts,
-            {.min = 0.0, .max = 1e3, .doc = "how far a foot in the air moves"});
-    a.Field("foot_position_m", foot_position_m, {.min = 1e-5, .max = 1.0});
-    a.Field("foot_velocity_mps", foot_velocity_mps, {.min = 1e-5, .max = 10.0});
+            {.min = 0.0,
+             .max = 1e3,
+             .doc = "how far a foot in the air moves",
+             .scale = core::dimension::kLength / core::Pow(core::dimension::kTime, 0.5)});
+    a.Field("foot_position_m", foot_position_m,
+            {.min = 1e-5, .max = 1.0, .scale = core::dimension::kLength});
+    a.Field("foot_velocity_mps", foot_velocity_mps,
+            {.min = 1e-5, .max = 10.0, .scale = core::dimension::kSpeed});
     a.Field("rest", rest);
   }
   bool operator==(const LinearKfParams&) const = default;

@@ -23,7 +23,10 @@ struct RestParams {
     a.Field("max_force_mps2", max_force_mps2,
             {.min = 1e-3, .max = 100.0, .doc = "a specific force further from its mean likewise"});
     a.Field("patience_s", patience_s,
-            {.min = 0.0, .max = 60.0, .doc = "without rest, the start is made from what there is"});
+            {.min = 0.0,
+             .max = 60.0,
+             .doc = "without rest, the start is made from what there is",
+             .scale = core::dimension::kTime});
   }
   bool operator==(const RestParams&) const = default;
 };

@@ -223,7 +223,9 @@ constexpr std::array<Band, 4> kBands = {{{0.0024, {0.6, 0.75, {0.0, 0.5, 0.75, 0
 class BioGait final : public PhasedGait {
  public:
   explicit BioGait(const BioParams& params) noexcept
-      : PhasedGait(params.stand), params_(params), speed_(params.speed) {}
+      : PhasedGait(params.stand), params_(params), speed_(params.speed) {
+    from_.period_s = PeriodOf(0);
+  }
 
   std::unique_ptr<GaitSequencer> Clone() const override { return std::make_unique<BioGait>(*this); }
 
@@ -236,7 +238,7 @@ class BioGait final : public PhasedGait {
       from_ = Blend();
       share_ = 0.0;
       const double boundary = std::min(kBands[std::min(band, band_)].upper, 0.95);
-      const double mean_period_s = 0.5 * (from_.period_s + kBands[band].timing.period_s);
+      const double mean_period_s = 0.5 * (from_.period_s + PeriodOf(band));
       blend_s_ = 2.0 * (1.0 - boundary) * mean_period_s;
       band_ = band;
     }
@@ -253,10 +255,14 @@ class BioGait final : public PhasedGait {
     return band;
   }
 
+  [[nodiscard]] double PeriodOf(std::size_t band) const noexcept {
+    return params_.period_scale * kBands[band].timing.period_s;
+  }
+
   [[nodiscard]] GaitTiming Blend() const noexcept {
     const GaitTiming& to = kBands[band_].timing;
     GaitTiming timing;
-    timing.period_s = from_.period_s + share_ * (to.period_s - from_.period_s);
+    timing.period_s = from_.period_s + share_ * (PeriodOf(band_) - from_.period_s);
     timing.duty = from_.duty + share_ * (to.duty - from_.duty);
     for (const Leg leg : kLegs) {
       const double difference = to.offset[leg] - from_.offset[leg];
@@ -305,7 +311,7 @@ GaitTiming TimingOf(NamedGait gait) noexcept {
 
 GaitTiming SgsParams::Timing() const noexcept {
   GaitTiming timing = TimingOf(gait);
-  timing.period_s = period_s.value_or(timing.period_s);
+  timing.period_s = period_s.value_or(period_scale * timing.period_s);
   timing.duty = duty.value_or(timing.duty);
   if (offset) timing.offset = ToLegArray(*offset);
   return timing;

@@ -51,14 +51,16 @@ struct StrideLaw {
   double min_speed_mps = 0.01;
   template <class Archive>
   void Serialize(Archive& a) {
-    a.Field("swing_s", swing_s, {.min = 0.05, .max = 1.0});
+    a.Field("swing_s", swing_s, {.min = 0.05, .max = 1.0, .scale = core::dimension::kTime});
     a.Field(
         "gravity_mps2", gravity_mps2,
         {.min = 0.1, .max = 30.0, .doc = "g of the Froude number, 9.81 in the paper everywhere"});
-    a.Field("max_stance_travel_m", max_stance_travel_m, {.min = 0.02, .max = 2.0});
+    a.Field("max_stance_travel_m", max_stance_travel_m,
+            {.min = 0.02, .max = 2.0, .scale = core::dimension::kLength});
     a.Field("min_duty", min_duty, {.min = 0.2, .max = 0.95});
     a.Field("max_duty", max_duty, {.min = 0.3, .max = 0.98});
-    a.Field("min_speed_mps", min_speed_mps, {.min = 1e-3, .max = 1.0});
+    a.Field("min_speed_mps", min_speed_mps,
+            {.min = 1e-3, .max = 1.0, .scale = core::dimension::kSpeed});
   }
   [[nodiscard]] std::string Problem() const {
     return min_duty < max_duty ? "" : "min_duty must be below max_duty";
@@ -102,12 +104,18 @@ constexpr std::array<std::pair<NamedGait, std::string_view>, 10> EnumNames(Named
 struct SgsParams {
   static constexpr const char* kType = "sgs";
   NamedGait gait = NamedGait::kWalkingTrot;
+  double period_scale = 1.0;
   std::optional<double> period_s, duty;
   std::optional<std::array<double, 4>> offset;
   StandParams stand;
   template <class Archive>
   void Serialize(Archive& a) {
     a.Field("gait", gait);
+    a.Field("period_scale", period_scale,
+            {.min = 0.1,
+             .max = 10.0,
+             .doc = "times the period of the gait's table, which is the Go2's",
+             .scale = core::dimension::kTime});
     a.Field("period_s", period_s, {.min = 0.1, .max = 5.0, .doc = "in place of the gait's own"});
     a.Field("duty", duty, {.min = 0.1, .max = 1.0, .doc = "in place of the gait's own; 1 stands"});
     a.Field("offset", offset,
@@ -128,7 +136,11 @@ struct SpeedParams {
   void Serialize(Archive& a) {
     a.Field("filter_samples", filter_samples,
             {.min = 1, .max = 100, .doc = "moving mean of the measured speed, in gait ticks"});
-    a.Field("yaw_arm_m", yaw_arm_m, {.min = 0.0, .max = 1.0, .doc = "speed floor per yaw rate"});
+    a.Field("yaw_arm_m", yaw_arm_m,
+            {.min = 0.0,
+             .max = 1.0,
+             .doc = "speed floor per yaw rate",
+             .scale = core::dimension::kLength});
     a.Field("command_share", command_share,
             {.min = 0.0, .max = 1.0, .doc = "speed floor as a share of the command"});
   }
@@ -146,9 +158,11 @@ struct SlowWalkParams {
     a.Field(
         "walk_below_froude", walk_below_froude,
         {.min = 0.0, .max = 1.0, .doc = "v²/(g h) below which the offsets are a walk's; 0: never"});
-    a.Field(
-        "offset_delay_s", offset_delay_s,
-        {.min = 0.0, .max = 10.0, .doc = "for so long the speed must ask for the other offsets"});
+    a.Field("offset_delay_s", offset_delay_s,
+            {.min = 0.0,
+             .max = 10.0,
+             .doc = "for so long the speed must ask for the other offsets",
+             .scale = core::dimension::kTime});
   }
   bool operator==(const SlowWalkParams&) const = default;
 };
@@ -186,7 +200,11 @@ struct SgsMatchedParams {
     a.Field("law", law);
     a.Field("offset", offset, {.min = 0.0, .max = 1.0, .doc = "FL, FR, HL, HR"});
     slow_walk.Serialize(a);
-    a.Field("yaw_arm_m", yaw_arm_m, {.min = 0.0, .max = 1.0, .doc = "speed floor per yaw rate"});
+    a.Field("yaw_arm_m", yaw_arm_m,
+            {.min = 0.0,
+             .max = 1.0,
+             .doc = "speed floor per yaw rate",
+             .scale = core::dimension::kLength});
     a.Field("stand", stand);
   }
   bool operator==(const SgsMatchedParams&) const = default;
@@ -200,12 +218,18 @@ struct BioParams {
   static constexpr const char* kType = "bio";
   double gravity_mps2 = 9.81;
   double hysteresis = 0.1;
+  double period_scale = 1.0;
   SpeedParams speed;
   StandParams stand;
   template <class Archive>
   void Serialize(Archive& a) {
     a.Field("gravity_mps2", gravity_mps2,
             {.min = 0.1, .max = 30.0, .doc = "g of the Froude number"});
+    a.Field("period_scale", period_scale,
+            {.min = 0.1,
+             .max = 10.0,
+             .doc = "times the periods of the table, which are the Go2's",
+             .scale = core::dimension::kTime});
     a.Field("hysteresis", hysteresis,
             {.min = 0.0, .max = 0.9, .doc = "share by which a boundary must be passed"});
     a.Field("speed", speed);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "core/config/field.h"
 #include "core/robot/plans.h"
 
 namespace scoria::controller {
@@ -22,15 +23,25 @@ struct StandParams {
   template <class Archive>
   void Serialize(Archive& a) {
     a.Field("stop_below_mps", stop_below_mps,
-            {.min = 0.0, .max = 2.0, .doc = "without a command, stand below this body speed"});
+            {.min = 0.0,
+             .max = 2.0,
+             .doc = "without a command, stand below this body speed",
+             .scale = core::dimension::kSpeed});
     a.Field("step_above_mps", step_above_mps,
-            {.min = 0.0, .max = 5.0, .doc = "without a command, start stepping above this speed"});
+            {.min = 0.0,
+             .max = 5.0,
+             .doc = "without a command, start stepping above this speed",
+             .scale = core::dimension::kSpeed});
     a.Field("correct_above_m", correct_above_m,
             {.min = 0.01,
              .max = 10.0,
-             .doc = "a standing foot that is further from its place steps there, one at a time"});
+             .doc = "a standing foot that is further from its place steps there, one at a time",
+             .scale = core::dimension::kLength});
     a.Field("correction_period_s", correction_period_s,
-            {.min = 0.25, .max = 5.0, .doc = "between two such steps; a third of it in the air"});
+            {.min = 0.25,
+             .max = 5.0,
+             .doc = "between two such steps; a third of it in the air",
+             .scale = core::dimension::kTime});
   }
   bool operator==(const StandParams&) const = default;
 };

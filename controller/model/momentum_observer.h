@@ -44,12 +44,13 @@ struct ObserverParams {
     a.Field("coulomb_smooth_radps", coulomb_smooth_radps,
             {.min = 1e-3,
              .max = 10.0,
-             .doc = "the sign of the speed is tanh(speed / this): no chatter about rest"});
-    a.Field(
-        "singular_below_m", singular_below_m,
-        {.min = 1e-4,
-         .max = 0.5,
-         .doc = "smallest singular value of a foot's Jacobian below which its force is damped"});
+             .doc = "the sign of the speed is tanh(speed / this): no chatter about rest",
+             .scale = core::dimension::kRate});
+    a.Field("singular_below_m", singular_below_m,
+            {.min = 1e-4,
+             .max = 0.5,
+             .doc = "smallest singular value of a foot's Jacobian below which its force is damped",
+             .scale = core::dimension::kLength});
   }
   bool operator==(const ObserverParams&) const = default;
 };

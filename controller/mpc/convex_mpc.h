@@ -17,10 +17,21 @@ struct MpcWeights {
   void Serialize(Archive& a) {
     constexpr double kMax = 1e8;
     a.Field("rpy", rpy, {.min = 0.0, .max = kMax, .doc = "per rad^2"});
-    a.Field("position", position, {.min = 0.0, .max = kMax, .doc = "per m^2"});
+    a.Field("position", position,
+            {.min = 0.0,
+             .max = kMax,
+             .doc = "per m^2",
+             .scale = core::Pow(core::dimension::kLength, -2.0)});
     a.Field("angular_velocity", angular_velocity,
-            {.min = 1e-6, .max = kMax, .doc = "per (rad/s)^2"});
-    a.Field("velocity", velocity, {.min = 1e-6, .max = kMax, .doc = "per (m/s)^2"});
+            {.min = 1e-6,
+             .max = kMax,
+             .doc = "per (rad/s)^2",
+             .scale = core::Pow(core::dimension::kTime, 2.0)});
+    a.Field("velocity", velocity,
+            {.min = 1e-6,
+             .max = kMax,
+             .doc = "per (m/s)^2",
+             .scale = core::Pow(core::dimension::kSpeed, -2.0)});
   }
   bool operator==(const MpcWeights&) const = default;
 };
@@ -40,11 +51,19 @@ struct MpcParams {
   template <class Archive>
   void Serialize(Archive& a) {
     a.Field("horizon", horizon, {.min = 2, .max = kMaxHorizon, .doc = "stages"});
-    a.Field("stage_s", stage_s, {.min = 0.005, .max = 0.2});
-    a.Field("force_weight", force_weight, {.min = 1e-9, .max = 1.0, .doc = "per N^2"});
+    a.Field("stage_s", stage_s, {.min = 0.005, .max = 0.2, .scale = core::dimension::kTime});
+    a.Field("force_weight", force_weight,
+            {.min = 1e-9,
+             .max = 1.0,
+             .doc = "per N^2",
+             .scale = core::Pow(core::dimension::kForce, -2.0)});
     a.Field("friction", friction, {.min = 0.05, .max = 2.0, .doc = "assumed, of the pyramid"});
-    a.Field("f_min_N", f_min_N, {.min = 0.0, .max = 1e3, .doc = "normal force of a stance foot"});
-    a.Field("f_max_N", f_max_N, {.min = 1.0, .max = 1e4});
+    a.Field("f_min_N", f_min_N,
+            {.min = 0.0,
+             .max = 1e3,
+             .doc = "normal force of a stance foot",
+             .scale = core::dimension::kForce});
+    a.Field("f_max_N", f_max_N, {.min = 1.0, .max = 1e4, .scale = core::dimension::kForce});
     a.Field("move", move);
     a.Field("stand", stand);
     a.Field("latency_ticks", latency_ticks,

@@ -55,9 +55,11 @@ void ReferencePlanner::FitPlane(const Vec3& p_WB, double slope_share,
     A += d * d.transpose();
     b += d * (p.z() - mean.z());
   }
-  constexpr double kRidge_m2 = 1e-4;  // keeps the fit finite when the feet are nearly in a line
+  // Keeps the fit finite when the feet are nearly in a line; 1e-4 m² for a Go2.
+  constexpr double kRidge = 1e-4 / (0.30 * 0.30);
+  const double ridge_m2 = kRidge * nominal_height_m_ * nominal_height_m_;
   constexpr double kMaxSlope = 1.0;
-  const Vec2 slope = (A + kRidge_m2 * Eigen::Matrix2d::Identity()).inverse() * b;
+  const Vec2 slope = (A + ridge_m2 * Eigen::Matrix2d::Identity()).inverse() * b;
   const Vec2 bounded = slope.cwiseMax(-kMaxSlope).cwiseMin(kMaxSlope);
   const double z_before = plane_.Height(p_WB);
   plane_.slope += slope_share * (bounded - plane_.slope);

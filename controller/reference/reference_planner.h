@@ -23,7 +23,8 @@ struct ReferenceParams {
     a.Field(
         "max_yaw_lead_rad", max_yaw_lead_rad,
         {.min = 0.0, .max = 3.0, .doc = "how far the desired heading may run from the measured"});
-    a.Field("max_position_lead_m", max_position_lead_m, {.min = 0.0, .max = 1.0});
+    a.Field("max_position_lead_m", max_position_lead_m,
+            {.min = 0.0, .max = 1.0, .scale = core::dimension::kLength});
     a.Field("tilt_share", tilt_share,
             {.min = 0.0, .max = 1.0, .doc = "share of the ground's tilt that the trunk follows"});
     a.Field("plane_slope_s", plane_slope_s,
@@ -31,16 +32,19 @@ struct ReferenceParams {
              .max = 60.0,
              .doc = "time constant of the ground plane's slope",
              .was = "plane_slope_gain",
-             .from_was = TimeConstantOfTickGain_s});
+             .from_was = TimeConstantOfTickGain_s,
+             .scale = core::dimension::kTime});
     a.Field("plane_height_s", plane_height_s,
             {.min = 0.0,
              .max = 60.0,
              .doc = "time constant of the ground plane's height",
              .was = "plane_height_gain",
-             .from_was = TimeConstantOfTickGain_s});
+             .from_was = TimeConstantOfTickGain_s,
+             .scale = core::dimension::kTime});
     a.Field("max_acceleration_mps2", max_acceleration_mps2,
             {.min = 0.05, .max = 20.0, .doc = "ramp of commanded speeds"});
-    a.Field("max_yaw_acceleration_radps2", max_yaw_acceleration_radps2, {.min = 0.05, .max = 50.0});
+    a.Field("max_yaw_acceleration_radps2", max_yaw_acceleration_radps2,
+            {.min = 0.05, .max = 50.0, .scale = core::Pow(core::dimension::kTime, -2.0)});
   }
   bool operator==(const ReferenceParams&) const = default;
 };

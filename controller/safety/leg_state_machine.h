@@ -38,7 +38,10 @@ struct LegStateParams {
     a.Field("lost_contact", lost_contact,
             {.doc = "a foot that loses the ground during its stance, likewise"});
     a.Field("lost_after_s", lost_after_s,
-            {.min = 0.0, .max = 1.0, .doc = "in the air, before the contact counts as lost"});
+            {.min = 0.0,
+             .max = 1.0,
+             .doc = "in the air, before the contact counts as lost",
+             .scale = core::dimension::kTime});
     a.Field(
         "stumble_reflex", stumble_reflex,
         {.doc = "a swing foot that hits something before early_contact_after is lifted over it"});

@@ -22,14 +22,18 @@ struct SafetyParams {
     a.Field("max_plan_age_s", max_plan_age_s,
             {.min = 0.0,
              .max = 5.0,
-             .doc = "an older MPC plan is replaced by equal forces under all stance feet"});
-    a.Field(
-        "max_command_age_s", max_command_age_s,
-        {.min = 0.0, .max = 1.0, .doc = "how long a late body controller's last command stays"});
+             .doc = "an older MPC plan is replaced by equal forces under all stance feet",
+             .scale = core::dimension::kTime});
+    a.Field("max_command_age_s", max_command_age_s,
+            {.min = 0.0,
+             .max = 1.0,
+             .doc = "how long a late body controller's last command stays",
+             .scale = core::dimension::kTime});
     a.Field(
         "tilt_stop_rad", tilt_stop_rad,
         {.min = 0.1, .max = 3.2, .doc = "beyond it the motors only damp, until the next start"});
-    a.Field("damping_Nms_per_rad", damping_Nms_per_rad, {.min = 0.0, .max = 100.0});
+    a.Field("damping_Nms_per_rad", damping_Nms_per_rad,
+            {.min = 0.0, .max = 100.0, .scale = core::dimension::kJointDamping});
     a.Field("joint_margin_rad", joint_margin_rad,
             {.min = 0.0, .max = 0.5, .doc = "before a joint's limit, where it is turned back"});
     a.Field(
@@ -39,8 +43,10 @@ struct SafetyParams {
          .doc =
              "HAA, HFE, KFE: joints are also turned back so far from the standing pose, so that no "
              "leg folds through to where it cannot walk"});
-    a.Field("joint_limit_Nm_per_rad", joint_limit_Nm_per_rad, {.min = 0.0, .max = 1e4});
-    a.Field("joint_limit_Nms_per_rad", joint_limit_Nms_per_rad, {.min = 0.0, .max = 100.0});
+    a.Field("joint_limit_Nm_per_rad", joint_limit_Nm_per_rad,
+            {.min = 0.0, .max = 1e4, .scale = core::dimension::kTorque});
+    a.Field("joint_limit_Nms_per_rad", joint_limit_Nms_per_rad,
+            {.min = 0.0, .max = 100.0, .scale = core::dimension::kJointDamping});
   }
   bool operator==(const SafetyParams&) const = default;
 };

@@ -49,7 +49,8 @@ double StageQuality::CalcFooting(const StageReports& in, double dt_s) noexcept {
 
 const Qualities& StageQuality::Update(const StageReports& in, double dt_s) noexcept {
   core::LowPass(answered_, in.body_answered ? 1.0 : 0.0, params_.body_window_s, dt_s);
-  core::LowPass(spare_, in.torque_spent ? 0.0 : 1.0, params_.load_window_s, dt_s);
+  const double spare = std::clamp(1.0 - in.torque_shortfall / params_.load_shortfall, 0.0, 1.0);
+  core::LowPass(spare_, spare, params_.load_window_s, dt_s);
   const auto set = [&](Monitor monitor, double quality) {
     qualities_[static_cast<std::size_t>(monitor)] = quality;
   };

@@ -40,9 +40,15 @@ struct MonitorParams {
     a.Field("least_quality", least_quality,
             {.min = 0.0, .max = 1.0, .doc = "what is worse counts as unsound"});
     a.Field("after_s", after_s,
-            {.min = 0.0, .max = 60.0, .doc = "unsound for so long on balance: engaged"});
+            {.min = 0.0,
+             .max = 60.0,
+             .doc = "unsound for so long on balance: engaged",
+             .scale = core::dimension::kTime});
     a.Field("recover_s", recover_s,
-            {.min = 0.0, .max = 600.0, .doc = "sound for so long without a break: released"});
+            {.min = 0.0,
+             .max = 600.0,
+             .doc = "sound for so long without a break: released",
+             .scale = core::dimension::kTime});
   }
   bool operator==(const MonitorParams&) const = default;
 };
@@ -74,12 +80,15 @@ struct SupervisorParams {
     a.Field("footing", footing,
             {.doc = "of tilt error, slips and stumbles; falls back on careful walking"});
     a.Field("load", load,
-            {.doc = "share of ticks with torque to spare; falls back on standing, crouched"});
+            {.doc = "torque that stance legs lack; falls back on standing, crouched"});
     a.Field("careful_speed_share", careful_speed_share, {.min = 0.0, .max = 1.0});
     a.Field("careful_duty", careful_duty,
             {.min = 0.0, .max = 0.95, .doc = "least duty factor, at the gait's own swing time"});
     a.Field("careful_lift_m", careful_lift_m,
-            {.min = 0.0, .max = 0.3, .doc = "added to the swing's apex"});
+            {.min = 0.0,
+             .max = 0.3,
+             .doc = "added to the swing's apex",
+             .scale = core::dimension::kLength});
     a.Field("crouch_share", crouch_share,
             {.min = 0.3, .max = 1.0, .doc = "of the height, when the load is too much"});
     a.Field("covariance_scale", covariance_scale,
@@ -87,7 +96,11 @@ struct SupervisorParams {
              .max = 1e3,
              .doc = "of the standard deviations of a re-initialised estimate",
              .was = "doubt"});
-    a.Field("ramp_s", ramp_s, {.min = 0.0, .max = 10.0, .doc = "from one way to walk to another"});
+    a.Field("ramp_s", ramp_s,
+            {.min = 0.0,
+             .max = 10.0,
+             .doc = "from one way to walk to another",
+             .scale = core::dimension::kTime});
   }
   bool operator==(const SupervisorParams&) const = default;
 };

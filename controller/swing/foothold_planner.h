@@ -17,14 +17,21 @@ struct FootholdParams {
   template <class Archive>
   void Serialize(Archive& a) {
     a.Field("velocity_gain_s", velocity_gain_s,
-            {.min = 0.0, .max = 1.0, .doc = "step out per velocity error (Raibert)"});
+            {.min = 0.0,
+             .max = 1.0,
+             .doc = "step out per velocity error (Raibert)",
+             .scale = core::dimension::kTime});
     a.Field("velocity_filter_samples", velocity_filter_samples, {.min = 1, .max = 100});
     a.Field("max_reach_m", max_reach_m,
-            {.min = 0.05, .max = 1.0, .doc = "horizontal distance from the neutral foothold"});
+            {.min = 0.05,
+             .max = 1.0,
+             .doc = "horizontal distance from the neutral foothold",
+             .scale = core::dimension::kLength});
     a.Field("max_step_height_m", max_step_height_m,
             {.min = 0.01,
              .max = 1.0,
-             .doc = "a higher or lower step than this is shortened towards the last foothold"});
+             .doc = "a higher or lower step than this is shortened towards the last foothold",
+             .scale = core::dimension::kLength});
   }
   bool operator==(const FootholdParams&) const = default;
 };

@@ -17,13 +17,20 @@ struct SwingParams {
     a.Field("apex_m", apex_m,
             {.min = 0.0,
              .max = 0.5,
-             .doc = "height over both ends of the step and the ground plane half-way"});
+             .doc = "height over both ends of the step and the ground plane half-way",
+             .scale = core::dimension::kLength});
     a.Field("retarget_until", retarget_until,
             {.min = 0.0, .max = 1.0, .doc = "swing progress after which the foothold is fixed"});
     a.Field("lower_speed_mps", lower_speed_mps,
-            {.min = 0.01, .max = 5.0, .doc = "of a foot that is lowered until it touches"});
+            {.min = 0.01,
+             .max = 5.0,
+             .doc = "of a foot that is lowered until it touches",
+             .scale = core::dimension::kSpeed});
     a.Field("stumble_lift_m", stumble_lift_m,
-            {.min = 0.0, .max = 0.3, .doc = "added to the apex by the stumble reflex"});
+            {.min = 0.0,
+             .max = 0.3,
+             .doc = "added to the apex by the stumble reflex",
+             .scale = core::dimension::kLength});
   }
   bool operator==(const SwingParams&) const = default;
 };

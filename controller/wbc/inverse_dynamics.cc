@@ -10,9 +10,8 @@ namespace {
 
 /// Inverse of a leg Jacobian, damped: bounded where the leg is stretched, elsewhere within a few
 /// per cent.
-Mat3 DampedInverse(const Mat3& J) noexcept {
-  constexpr double kDamping_m = 0.02;
-  const Mat3 A = J * J.transpose() + kDamping_m * kDamping_m * Mat3::Identity();
+Mat3 DampedInverse(const Mat3& J, double damping_m) noexcept {
+  const Mat3 A = J * J.transpose() + damping_m * damping_m * Mat3::Identity();
   return J.transpose() * A.inverse();
 }
 
@@ -51,7 +50,7 @@ WbcResult InverseDynamics::Solve(const WbcInput& in) noexcept {
   for (const Leg leg : kLegs) {
     const bool stance = in.legs.InContact(leg);
     const FootMotion motion = stance ? Stance(in, leg, result.target) : Swing(in, leg);
-    const Mat3 J_inverse = DampedInverse(wb.J_ll[leg]);
+    const Mat3 J_inverse = DampedInverse(wb.J_ll[leg], damping_m_);
     const double limit = params_.max_joint_error_rad;
     const Vec3 dq = (J_inverse * (motion.p_BF_W - wb.p_BF_W[leg])).cwiseMax(-limit).cwiseMin(limit);
     Vec3 tau = wb.h_l[leg];

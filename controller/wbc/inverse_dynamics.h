@@ -14,7 +14,9 @@ class InverseDynamics final : public WholeBodyController {
  public:
   /// `robot` is borrowed.
   InverseDynamics(const InverseDynamicsParams& params, const core::RobotDescription& robot)
-      : params_(params), effort_Nm_(robot.EffortLimits()) {}
+      : params_(params),
+        effort_Nm_(robot.EffortLimits()),
+        damping_m_(0.02 * robot.similarity.length) {}
 
   [[nodiscard]] WbcResult Solve(const WbcInput& in) noexcept override;
   [[nodiscard]] std::unique_ptr<WholeBodyController> Clone() const override {
@@ -32,6 +34,7 @@ class InverseDynamics final : public WholeBodyController {
 
   InverseDynamicsParams params_;
   LegArray<Vec3> effort_Nm_;
+  double damping_m_;  // of the inverse Jacobian
 };
 
 }  // namespace scoria::controller

@@ -13,16 +13,21 @@ struct InverseDynamicsParams {
   double target_lead_s = 0.01;
   template <class Archive>
   void Serialize(Archive& a) {
-    a.Field("stance_kp_Nm_per_rad", stance_kp_Nm_per_rad, {.min = 0.0, .max = 1e3});
-    a.Field("stance_kd_Nms_per_rad", stance_kd_Nms_per_rad, {.min = 0.0, .max = 100.0});
-    a.Field("swing_kp_Nm_per_rad", swing_kp_Nm_per_rad, {.min = 0.0, .max = 1e3});
-    a.Field("swing_kd_Nms_per_rad", swing_kd_Nms_per_rad, {.min = 0.0, .max = 100.0});
+    a.Field("stance_kp_Nm_per_rad", stance_kp_Nm_per_rad,
+            {.min = 0.0, .max = 1e3, .scale = core::dimension::kTorque});
+    a.Field("stance_kd_Nms_per_rad", stance_kd_Nms_per_rad,
+            {.min = 0.0, .max = 100.0, .scale = core::dimension::kJointDamping});
+    a.Field("swing_kp_Nm_per_rad", swing_kp_Nm_per_rad,
+            {.min = 0.0, .max = 1e3, .scale = core::dimension::kTorque});
+    a.Field("swing_kd_Nms_per_rad", swing_kd_Nms_per_rad,
+            {.min = 0.0, .max = 100.0, .scale = core::dimension::kJointDamping});
     a.Field("max_joint_error_rad", max_joint_error_rad,
             {.min = 0.01, .max = 3.0, .doc = "clip of the joint controller's position error"});
     a.Field("target_lead_s", target_lead_s,
             {.min = 0.0,
              .max = 0.2,
-             .doc = "how far ahead on the MPC's predicted motion the body target lies"});
+             .doc = "how far ahead on the MPC's predicted motion the body target lies",
+             .scale = core::dimension::kTime});
   }
   bool operator==(const InverseDynamicsParams&) const = default;
 };

@@ -39,26 +39,44 @@ struct TsidParams {
                 "and torques. One problem, three forms"});
     a.Field("com_weight", com_weight, {.min = 0.0, .max = kMaxWeight, .doc = "per (m/s^2)^2"});
     a.Field("orientation_weight", orientation_weight,
-            {.min = 0.0, .max = kMaxWeight, .doc = "per (rad/s^2)^2"});
+            {.min = 0.0,
+             .max = kMaxWeight,
+             .doc = "per (rad/s^2)^2",
+             .scale = core::Pow(core::dimension::kTime, 4.0)});
     a.Field("swing_weight", swing_weight, {.min = 0.0, .max = kMaxWeight, .doc = "per (m/s^2)^2"});
-    a.Field("force_weight", force_weight, {.min = 0.0, .max = kMaxWeight, .doc = "per N^2"});
+    a.Field("force_weight", force_weight,
+            {.min = 0.0,
+             .max = kMaxWeight,
+             .doc = "per N^2",
+             .scale = core::Pow(core::dimension::kForce, -2.0)});
     a.Field("regularisation", regularisation, {.min = 1e-12, .max = 1.0});
-    a.Field("com_kp", com_kp, {.min = 0.0, .max = kMaxGain, .doc = "1/s^2"});
-    a.Field("com_kd", com_kd, {.min = 0.0, .max = kMaxGain, .doc = "1/s"});
-    a.Field("orientation_kp", orientation_kp, {.min = 0.0, .max = kMaxGain});
-    a.Field("orientation_kd", orientation_kd, {.min = 0.0, .max = kMaxGain});
-    a.Field("swing_kp", swing_kp, {.min = 0.0, .max = kMaxGain});
-    a.Field("swing_kd", swing_kd, {.min = 0.0, .max = kMaxGain});
+    a.Field("com_kp", com_kp,
+            {.min = 0.0,
+             .max = kMaxGain,
+             .doc = "1/s^2",
+             .scale = core::Pow(core::dimension::kTime, -2.0)});
+    a.Field("com_kd", com_kd,
+            {.min = 0.0, .max = kMaxGain, .doc = "1/s", .scale = core::dimension::kRate});
+    a.Field("orientation_kp", orientation_kp,
+            {.min = 0.0, .max = kMaxGain, .scale = core::Pow(core::dimension::kTime, -2.0)});
+    a.Field("orientation_kd", orientation_kd,
+            {.min = 0.0, .max = kMaxGain, .scale = core::dimension::kRate});
+    a.Field("swing_kp", swing_kp,
+            {.min = 0.0, .max = kMaxGain, .scale = core::Pow(core::dimension::kTime, -2.0)});
+    a.Field("swing_kd", swing_kd, {.min = 0.0, .max = kMaxGain, .scale = core::dimension::kRate});
     a.Field("max_swing_acceleration_mps2", max_swing_acceleration_mps2, {.min = 1.0, .max = 1e4});
-    a.Field(
-        "contact_damping_per_s", contact_damping_per_s,
-        {.min = 0.0, .max = 80.0, .doc = "brakes a slipping foot; unstable near 100 at 500 Hz"});
+    a.Field("contact_damping_per_s", contact_damping_per_s,
+            {.min = 0.0,
+             .max = 80.0,
+             .doc = "brakes a slipping foot; unstable near 100 at 500 Hz",
+             .scale = core::dimension::kRate});
     a.Field("friction", friction, {.min = 0.05, .max = 2.0, .doc = "assumed, of the pyramid"});
-    a.Field("f_min_N", f_min_N, {.min = 0.0, .max = 1e3});
+    a.Field("f_min_N", f_min_N, {.min = 0.0, .max = 1e3, .scale = core::dimension::kForce});
     a.Field("target_lead_s", target_lead_s,
             {.min = 0.0,
              .max = 0.2,
-             .doc = "how far ahead on the MPC's predicted motion the body target lies"});
+             .doc = "how far ahead on the MPC's predicted motion the body target lies",
+             .scale = core::dimension::kTime});
   }
   bool operator==(const TsidParams&) const = default;
 };

@@ -17,6 +17,7 @@
 
 #include "core/config/field.h"
 #include "core/config/node.h"
+#include "core/config/scale.h"
 #include "core/math/types.h"
 
 /// Reading (ReadConfig), writing (WriteConfig) and documentation (DescribeConfig) of structs that
@@ -27,6 +28,7 @@ namespace scoria::core {
 /// What DescribeConfig tells of one field.
 struct FieldInfo {
   std::string key, kind, default_value, doc;
+  std::string scale;  // how the default goes with the robot (ScaleText)
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
   bool required = false;
@@ -102,11 +104,17 @@ ConfigNode Scalar(std::string text);
 /// What reading says besides the value, a sentence each: names that are now others.
 using ConfigNotes = std::vector<std::string>;
 
+/// What reading goes by, and what it says.
+struct ConfigContext {
+  Similarity similarity;  // scales the defaults of what the text does not give
+  ConfigNotes notes;
+};
+
 /// Reads one map strictly: after Serialize, every key of the map must have been asked for.
 class ConfigReader {
  public:
-  ConfigReader(const ConfigNode& node, std::string path, ConfigNotes& notes)
-      : node_(node), path_(std::move(path)), notes_(notes) {
+  ConfigReader(const ConfigNode& node, std::string path, ConfigContext& context)
+      : node_(node), path_(std::move(path)), context_(context) {
     if (node.kind != ConfigNode::Kind::kMap && node.kind != ConfigNode::Kind::kNull) {
       config_detail::ThrowKind(node, path_, "a map");
     }
@@ -121,7 +129,9 @@ class ConfigReader {
       if (child != nullptr) config_detail::ThrowTwice(*former, PathOf(key), rule.was);
       ReadFormer(*former, key, value, rule);
     } else if (child != nullptr) {
-      Read(*child, PathOf(key), notes_, value, rule);
+      Read(*child, PathOf(key), context_, value, rule);
+    } else if (!context_.similarity.IsReference()) {
+      ConfigScaler(context_.similarity).Scale(value, rule);
     }
   }
 
@@ -143,8 +153,8 @@ class ConfigReader {
   }
 
   template <class T>
-  static void Read(const ConfigNode& node, const std::string& path, ConfigNotes& notes, T& value,
-                   const FieldRule& rule = {});
+  static void Read(const ConfigNode& node, const std::string& path, ConfigContext& context,
+                   T& value, const FieldRule& rule = {});
 
  private:
   [[nodiscard]] std::string PathOf(const std::string& key) const {
@@ -165,7 +175,7 @@ class ConfigReader {
     if constexpr (std::is_same_v<T, double>) {
       if (rule.from_was != nullptr) rule.min = -(rule.max = FieldRule{}.max);
     }
-    Read(former, PathOf(rule.was), notes_, value, rule);
+    Read(former, PathOf(rule.was), context_, value, rule);
     std::string note = fmt::format("{} is now {}", PathOf(rule.was), key);
     if constexpr (std::is_same_v<T, double>) {
       if (rule.from_was != nullptr) {
@@ -173,23 +183,23 @@ class ConfigReader {
         note += fmt::format(", here {}", config_detail::FormatDouble(value));
       }
     }
-    config_detail::AddNote(former, note, notes_);
+    config_detail::AddNote(former, note, context_.notes);
   }
   template <class Variant>
-  static void ReadVariant(const ConfigNode& node, const std::string& path, ConfigNotes& notes,
+  static void ReadVariant(const ConfigNode& node, const std::string& path, ConfigContext& context,
                           Variant& value);
   template <class Enum>
-  static void ReadEnum(const ConfigNode& node, const std::string& path, ConfigNotes& notes,
+  static void ReadEnum(const ConfigNode& node, const std::string& path, ConfigContext& context,
                        Enum& value);
 
   const ConfigNode& node_;
   std::string path_;
-  ConfigNotes& notes_;
+  ConfigContext& context_;
   std::vector<std::string> known_, former_;
 };
 
 template <class Enum>
-void ConfigReader::ReadEnum(const ConfigNode& node, const std::string& path, ConfigNotes& notes,
+void ConfigReader::ReadEnum(const ConfigNode& node, const std::string& path, ConfigContext& context,
                             Enum& value) {
   const std::string name = config_detail::ParseString(node, path);
   for (const auto& [v, n] : EnumNames(Enum{})) {
@@ -201,7 +211,8 @@ void ConfigReader::ReadEnum(const ConfigNode& node, const std::string& path, Con
     for (const auto& [v, n] : FormerNames(Enum{})) {
       if (n != name) continue;
       value = v;
-      config_detail::AddNote(node, fmt::format("{}: {} is now {}", path, n, EnumName(v)), notes);
+      config_detail::AddNote(node, fmt::format("{}: {} is now {}", path, n, EnumName(v)),
+                             context.notes);
       return;
     }
   }
@@ -209,8 +220,8 @@ void ConfigReader::ReadEnum(const ConfigNode& node, const std::string& path, Con
 }
 
 template <class Variant>
-void ConfigReader::ReadVariant(const ConfigNode& node, const std::string& path, ConfigNotes& notes,
-                               Variant& value) {
+void ConfigReader::ReadVariant(const ConfigNode& node, const std::string& path,
+                               ConfigContext& context, Variant& value) {
   if (node.kind != ConfigNode::Kind::kMap)
     config_detail::ThrowKind(node, path, "a map with a type");
   // Without a type it is the default's.
@@ -223,9 +234,9 @@ void ConfigReader::ReadVariant(const ConfigNode& node, const std::string& path, 
     found = true;
     if (name != T::kType)
       config_detail::AddNote(*type, fmt::format("{}.type: {} is now {}", path, name, T::kType),
-                             notes);
+                             context.notes);
     T alternative = std::holds_alternative<T>(value) ? std::get<T>(value) : T{};
-    ConfigReader reader(node, path, notes);
+    ConfigReader reader(node, path, context);
     reader.known_.emplace_back("type");
     alternative.Serialize(reader);
     reader.Finish();
@@ -240,7 +251,7 @@ void ConfigReader::ReadVariant(const ConfigNode& node, const std::string& path, 
 }
 
 template <class T>
-void ConfigReader::Read(const ConfigNode& node, const std::string& path, ConfigNotes& notes,
+void ConfigReader::Read(const ConfigNode& node, const std::string& path, ConfigContext& context,
                         T& value, const FieldRule& rule) {
   namespace d = config_detail;
   if constexpr (std::is_same_v<T, bool>) {
@@ -262,30 +273,30 @@ void ConfigReader::Read(const ConfigNode& node, const std::string& path, ConfigN
     const std::filesystem::path given = d::ParseString(node, path);
     value = given.empty() ? given : (node.origin.Folder() / given).lexically_normal();
   } else if constexpr (NamedEnum<T>) {
-    ReadEnum(node, path, notes, value);
+    ReadEnum(node, path, context, value);
   } else if constexpr (d::IsOptional<T>::value) {
     if (node.kind == ConfigNode::Kind::kNull) {
       value.reset();
     } else {
-      Read(node, path, notes, value.emplace(), rule);
+      Read(node, path, context, value.emplace(), rule);
     }
   } else if constexpr (d::IsVector<T>::value) {
     if (node.kind != ConfigNode::Kind::kSequence) d::ThrowKind(node, path, "a list");
     value.clear();
     for (std::size_t i = 0; i < node.items.size(); ++i) {
-      Read(node.items[i], fmt::format("{}[{}]", path, i), notes, value.emplace_back(), rule);
+      Read(node.items[i], fmt::format("{}[{}]", path, i), context, value.emplace_back(), rule);
     }
   } else if constexpr (d::IsArray<T>::value || std::is_same_v<T, Vec3>) {
     if (node.kind != ConfigNode::Kind::kSequence) d::ThrowKind(node, path, "a list");
     const std::size_t n = static_cast<std::size_t>(value.size());
     if (node.items.size() != n) d::ThrowLength(node, path, n);
     for (std::size_t i = 0; i < n; ++i) {
-      Read(node.items[i], fmt::format("{}[{}]", path, i), notes, value[i], rule);
+      Read(node.items[i], fmt::format("{}[{}]", path, i), context, value[i], rule);
     }
   } else if constexpr (d::IsVariant<T>::value) {
-    ReadVariant(node, path, notes, value);
+    ReadVariant(node, path, context, value);
   } else {
-    ConfigReader reader(node, path, notes);
+    ConfigReader reader(node, path, context);
     value.Serialize(reader);
     reader.Finish();
     CheckWhole(node, path, value);
@@ -360,6 +371,7 @@ class ConfigDescriber {
     FieldInfo info = Describe(value);
     info.key = key;
     info.doc = rule.doc;
+    info.scale = ScaleText(rule.scale);
     info.min = rule.min;
     info.max = rule.max;
     fields_.push_back(std::move(info));
@@ -443,15 +455,15 @@ FieldInfo ConfigDescriber::Describe(T& value) {
 /// @returns T with defaults overridden by `node`.
 /// Errors: ConfigError naming file, line, column, key, value and what is allowed.
 template <class T>
-[[nodiscard]] T ReadConfig(const ConfigNode& node, ConfigNotes& notes) {
+[[nodiscard]] T ReadConfig(const ConfigNode& node, ConfigContext& context) {
   T value{};
-  ConfigReader::Read(node, "", notes, value);
+  ConfigReader::Read(node, "", context, value);
   return value;
 }
 template <class T>
 [[nodiscard]] T ReadConfig(const ConfigNode& node) {
-  ConfigNotes notes;
-  return ReadConfig<T>(node, notes);
+  ConfigContext context;
+  return ReadConfig<T>(node, context);
 }
 
 template <class T>

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <type_traits>
 
+#include "core/similarity.h"
+
 /// Configuration structs say once what they hold:
 ///
 ///     template <class Archive> void Serialize(Archive& a) {
@@ -26,6 +28,7 @@ struct FieldRule {
   const char* doc = "";
   const char* was = nullptr;             // the key's former name, still read, with a note
   double (*from_was)(double) = nullptr;  // a number under it as it reads today; none: the same
+  Dimension scale = {};                  // by which the default goes with the robot (Similarity)
 };
 
 template <class T>

@@ -52,11 +52,20 @@ struct MotorParams {
   void Serialize(Archive& a) {
     constexpr double kNone = 0.0;
     a.Field("armature_kgm2", armature_kgm2,
-            {.min = kNone, .max = 1.0, .doc = "rotor inertia seen at the joint"});
-    a.Field("damping_Nms_per_rad", damping_Nms_per_rad, {.min = kNone, .max = 10.0});
-    a.Field("friction_Nm", friction_Nm, {.min = kNone, .max = 10.0, .doc = "Coulomb friction"});
-    a.Field("copper_loss_W_per_Nm2", copper_loss_W_per_Nm2, {.min = kNone, .max = 100.0});
-    a.Field("idle_W", idle_W, {.min = kNone, .max = 1000.0, .doc = "computer and drives"});
+            {.min = kNone,
+             .max = 1.0,
+             .doc = "rotor inertia seen at the joint",
+             .scale = dimension::kInertia});
+    a.Field("damping_Nms_per_rad", damping_Nms_per_rad,
+            {.min = kNone, .max = 10.0, .scale = dimension::kJointDamping});
+    a.Field("friction_Nm", friction_Nm,
+            {.min = kNone, .max = 10.0, .doc = "Coulomb friction", .scale = dimension::kTorque});
+    a.Field(
+        "copper_loss_W_per_Nm2", copper_loss_W_per_Nm2,
+        {.min = kNone, .max = 100.0, .scale = dimension::kPower / Pow(dimension::kTorque, 2.0)});
+    a.Field(
+        "idle_W", idle_W,
+        {.min = kNone, .max = 1000.0, .doc = "computer and drives", .scale = dimension::kPower});
     a.Field("delay_s", delay_s,
             {.min = kNone, .max = 0.05, .doc = "from command to drive, whole physics steps"});
   }
@@ -72,8 +81,9 @@ struct BatteryParams {
   void Serialize(Archive& a) {
     a.Field("full_V", full_V, {.min = 1.0, .max = 1000.0, .doc = "open circuit, charged"});
     a.Field("empty_V", empty_V, {.min = 0.5, .max = 1000.0, .doc = "open circuit, discharged"});
-    a.Field("capacity_Ah", capacity_Ah, {.min = 0.01, .max = 1000.0});
-    a.Field("resistance_Ohm", resistance_Ohm, {.min = 0.0, .max = 10.0});
+    a.Field("capacity_Ah", capacity_Ah, {.min = 0.01, .max = 1000.0, .scale = dimension::kTorque});
+    a.Field("resistance_Ohm", resistance_Ohm,
+            {.min = 0.0, .max = 10.0, .scale = Pow(dimension::kPower, -1.0)});
     a.Field("start_charge", start_charge, {.min = 0.0, .max = 1.0, .doc = "share of the capacity"});
   }
   [[nodiscard]] std::string Problem() const {
@@ -117,10 +127,11 @@ struct RobotConfig {
     a.Field("stance_hind_m", stance_hind_m, {.doc = "as stance_front_m, hind"});
     a.Field("lying_pose_rad", lying_pose_rad,
             {.doc = "HAA, HFE, KFE when folded on the ground; zeros: the knee as far as it goes"});
-    a.Field("max_leg_length_m", max_leg_length_m,
-            {.min = 0.0,
-             .max = 2.0,
-             .doc = "hip to foot; footholds beyond are clipped; 0: thigh and shank less 0.02"});
+    a.Field(
+        "max_leg_length_m", max_leg_length_m,
+        {.min = 0.0,
+         .max = 2.0,
+         .doc = "hip to foot; footholds beyond are clipped; 0: thigh and shank less 0.02 (Go2)"});
     a.Field("foot_radius_m", foot_radius_m,
             {.min = 0.0,
              .max = 0.5,
@@ -190,6 +201,7 @@ struct RobotDescription {
   Vec3 p_BS = Vec3::Zero();  // IMU in the trunk
   Mat3 R_BS = Mat3::Identity();
   std::vector<Shape> collisions, visuals;
+  Similarity similarity;                 // without its equipment
   std::vector<std::string> remarks;      // what of the URDF could not be taken as it stands
   std::vector<std::string> held_joints;  // that move in the URDF, outside of the legs; held at zero
   MeshRecords meshes;                    // of a robot from a log: they stand for the files

@@ -155,13 +155,16 @@ double ThighLength(const LegDescription& leg) {
 
 double ShankLength(const LegDescription& leg) { return std::hypot(leg.p_LF.x(), leg.p_LF.z()); }
 
+double LegLength(const LegDescription& leg) { return ThighLength(leg) + ShankLength(leg); }
+
 void DeriveDefaults(RobotDescription& robot) {
   RobotConfig& config = robot.config;
   const LegDescription &front = robot.legs[Leg::kFL], &hind = robot.legs[Leg::kHL];
-  const double length_m = ThighLength(front) + ShankLength(front);
-  constexpr double kStandingShare = 0.7, kSpare_m = 0.02;
+  const double length_m = LegLength(front);
+  constexpr double kStandingShare = 0.7;
+  const double spare_m = 0.02 * robot.similarity.length;
   if (config.nominal_height_m == 0.0) config.nominal_height_m = kStandingShare * length_m;
-  if (config.max_leg_length_m == 0.0) config.max_leg_length_m = length_m - kSpare_m;
+  if (config.max_leg_length_m == 0.0) config.max_leg_length_m = length_m - spare_m;
   const auto below_thigh = [](const LegDescription& leg) {
     const Vec3 p = leg.joints[0].p_PJ + leg.joints[1].p_PJ;
     return Vec3(p.x(), p.y() + leg.joints[2].p_PJ.y() + leg.p_LF.y(), 0.0);

@@ -29,5 +29,6 @@ void DeriveDefaults(RobotDescription& robot);
 /// Thigh and shank, m: HFE to KFE, KFE to foot.
 [[nodiscard]] double ThighLength(const LegDescription& leg);
 [[nodiscard]] double ShankLength(const LegDescription& leg);
+[[nodiscard]] double LegLength(const LegDescription& leg);
 
 }  // namespace scoria::core

@@ -73,9 +73,11 @@ RobotDescription MakeRobot(const RobotConfig& config, const std::string& urdf_te
     if (robot.body(i).mass_kg <= 0.0) Fail(config, robot.body(i).name, "needs a positive mass");
   }
   DrawBareBodies(robot);
+  const double bare_kg = robot.total_mass_kg();
   for (const PayloadParams& body : config.equipment) Mount(body, robot);
   const std::string problem = NormaliseJoints(robot);
   if (!problem.empty()) Fail(config, "legs", problem);
+  robot.similarity = Similarity::Of(bare_kg, LegLength(robot.legs[Leg::kFL]));
   DeriveDefaults(robot);
   return robot;
 }

@@ -85,9 +85,15 @@ struct TorqueSensorParams {
     a.Field("gain_error", gain_error,
             {.min = 0.0, .max = 0.5, .doc = "standard deviation per joint"});
     a.Field("offset_Nm", offset_Nm,
-            {.min = 0.0, .max = 10.0, .doc = "standard deviation per joint"});
+            {.min = 0.0,
+             .max = 10.0,
+             .doc = "standard deviation per joint",
+             .scale = core::dimension::kTorque});
     a.Field("noise_Nm", noise_Nm,
-            {.min = 0.0, .max = 10.0, .doc = "standard deviation per sample"});
+            {.min = 0.0,
+             .max = 10.0,
+             .doc = "standard deviation per sample",
+             .scale = core::dimension::kTorque});
   }
 };
 
@@ -105,10 +111,15 @@ struct FootForceParams {
   void Serialize(Archive& a) {
     a.Field("sampling", sampling);
     a.Field("gain_per_N", gain_per_N,
-            {.min = 1e-3, .max = 1e3, .doc = "counts, of the median foot"});
+            {.min = 1e-3,
+             .max = 1e3,
+             .doc = "counts, of the median foot",
+             .scale = core::Pow(core::dimension::kForce, -1.0)});
     a.Field("gain_spread", gain_spread,
             {.min = 0.0, .max = 1.0, .doc = "standard deviation of a foot's ln(gain)"});
-    a.Field("dead_band_N", dead_band_N, {.min = 0.0, .max = 100.0, .doc = "force that reads 0"});
+    a.Field(
+        "dead_band_N", dead_band_N,
+        {.min = 0.0, .max = 100.0, .doc = "force that reads 0", .scale = core::dimension::kForce});
     a.Field("zero_min", zero_min, {.min = 0.0, .max = 1e4, .doc = "least counts of a free foot"});
     a.Field("zero_max", zero_max, {.min = 0.0, .max = 1e4, .doc = "most counts of a free foot"});
     a.Field("drift_per_sqrt_s", drift_per_sqrt_s,

@@ -47,7 +47,7 @@ SensorFrame Sensors::Read(const Truth& truth, const LegArray<Vec3>& motor_tau_Nm
   if (give_truth) {
     SensorFrame::Truth& given = z.truth.emplace();
     given.state = truth.state;
-    for (const Leg leg : kLegs) given.contact[leg] = truth.f_normal_N[leg] > kTrueContactForce_N;
+    given.contact = truth.contact;
   }
   return z;
 }

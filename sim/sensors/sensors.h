@@ -51,7 +51,4 @@ class Sensors {
   FootForceSensors foot_force_;
 };
 
-/// Normal force above which a foot truly stands.
-inline constexpr double kTrueContactForce_N = 5.0;
-
 }  // namespace scoria::sim

@@ -98,9 +98,7 @@ TEST(TrueInputs, ContactIsTheTrueOneForAllThatFollows) {
   given.substitute.contact = true;
   int differences = 0;
   for (int i = 0; i < 600; ++i) {
-    LegArray<bool> truth;
-    for (const Leg leg : kLegs)
-      truth[leg] = given.world.truth().f_normal_N[leg] > sim::kTrueContactForce_N;
+    const LegArray<bool> truth = given.world.truth().contact;
     given.Step();
     const ContactEstimate& contact = given.control().contact;
     ASSERT_EQ(contact.contact, truth);

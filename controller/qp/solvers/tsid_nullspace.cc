@@ -6,8 +6,14 @@
 namespace scoria::controller {
 namespace {
 
-/// |det| of a Go2 leg at ordinary poses is 5e-3 to 2e-2.
-constexpr double kSingular_m3 = 1e-3;
+/// |det| over the cube of the Frobenius norm; a leg at ordinary poses has 0.05 to 0.19 of it, the
+/// greatest possible, 3^-1.5.
+constexpr double kSingular = 0.01;
+
+bool IsSingular(const Mat3& J) noexcept {
+  const double size = J.norm();
+  return std::abs(J.determinant()) < kSingular * size * size * size;
+}
 
 }  // namespace
 
@@ -23,7 +29,7 @@ bool TsidNullspace::Reduce(const TsidProblem& p) noexcept {
       rhs.middleCols<3>(at) = -p.H_Bl[leg];
       continue;
     }
-    if (std::abs(p.J[leg].determinant()) < kSingular_m3) return false;
+    if (IsSingular(p.J[leg])) return false;
     const Mat3 J_inverse = p.J[leg].inverse();
     K_[leg] = J_inverse.lazyProduct(p.J_B[leg]);
     k_[leg] = J_inverse * p.a_c[leg];

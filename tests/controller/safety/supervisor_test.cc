@@ -158,7 +158,7 @@ TEST(StageQuality, TiltAndSpentTorqueLowerTheirQualities) {
   StageQuality quality({});
   StageReports reports = well.Report();
   reports.tilt_error_rad = 0.5 * QualityParams{}.tilt_rad;
-  reports.torque_spent = true;
+  reports.torque_shortfall = QualityParams{}.load_shortfall;
   for (int i = 0; i < 3000; ++i) std::ignore = quality.Update(reports, kDt_s);
   EXPECT_NEAR(QualityOf(quality.qualities(), Monitor::kFooting), 0.5, 1e-9);
   EXPECT_LT(QualityOf(quality.qualities(), Monitor::kLoad), 0.01);

@@ -135,16 +135,17 @@ struct Renamed {
 };
 
 TEST(Config, FormerNamesAreReadWithANote) {
-  ConfigNotes notes;
+  ConfigContext context;
   const auto read = ReadConfig<Renamed>(
       ParseConfig("number: 4\nsurface: bumpy\nshape: {type: plate, diameter_m: 3}\n", "d.yaml"),
-      notes);
+      context);
   EXPECT_EQ(read.count, 4);
   EXPECT_EQ(std::get<Disc>(read.shape).radius_m, 1.5);
-  EXPECT_EQ(notes, (ConfigNotes{"d.yaml:1:9: number is now count",
-                                "d.yaml:2:10: surface: bumpy is now rough",
-                                "d.yaml:3:15: shape.type: plate is now disc",
-                                "d.yaml:3:34: shape.diameter_m is now radius_m, here 1.5"}));
+  EXPECT_EQ(
+      context.notes,
+      (ConfigNotes{"d.yaml:1:9: number is now count", "d.yaml:2:10: surface: bumpy is now rough",
+                   "d.yaml:3:15: shape.type: plate is now disc",
+                   "d.yaml:3:34: shape.diameter_m is now radius_m, here 1.5"}));
   const auto error_of = [](const char* yaml) -> std::string {
     try {
       (void)ReadConfig<Renamed>(ParseConfig(yaml, "d.yaml"));
