@@ -46,7 +46,7 @@ double ContactQuality::FalsePositiveRate() const noexcept {
 }
 
 ContactQuality& ContactQuality::operator+=(const ContactQuality& other) noexcept {
-  spoke = spoke || other.spoke;
+  reported = reported || other.reported;
   differed = differed || other.differed;
   stance_rows += other.stance_rows;
   stance_right += other.stance_right;
@@ -100,18 +100,19 @@ Evidence& Evidence::operator+=(const Evidence& other) noexcept {
 }
 
 bool ContactMetrics::HasDetection() const noexcept {
-  return of(ContactWord::kSensor).spoke || of(ContactWord::kObserver).spoke ||
-         (of(ContactWord::kCounted).spoke && of(ContactWord::kCounted).differed);
+  return of(ContactDetector::kSensor).reported || of(ContactDetector::kObserver).reported ||
+         (of(ContactDetector::kFused).reported && of(ContactDetector::kFused).differed);
 }
 
 ContactMetrics& ContactMetrics::operator+=(const ContactMetrics& other) noexcept {
-  for (std::size_t i = 0; i < words.size(); ++i) words[i] += other.words[i];
+  for (std::size_t i = 0; i < detectors.size(); ++i) detectors[i] += other.detectors[i];
   sensor += other.sensor;
   observer += other.observer;
   leg_rows += other.leg_rows;
-  for (std::size_t i = 0; i < counted_from.size(); ++i) counted_from[i] += other.counted_from[i];
+  for (std::size_t i = 0; i < fused_from.size(); ++i) fused_from[i] += other.fused_from[i];
   distrusted_rows += other.distrusted_rows;
   distrusted_times += other.distrusted_times;
+  sensor_rows += other.sensor_rows;
   return *this;
 }
 
@@ -129,7 +130,8 @@ void ContactAccumulator::Break() noexcept {
 void ContactAccumulator::CountSources(const logs::ContactsRow& contacts) noexcept {
   for (std::size_t leg = 0; leg < 4; ++leg) {
     ++metrics_.leg_rows;
-    if (contacts.source) ++metrics_.counted_from[std::min<std::size_t>((*contacts.source)[leg], 3)];
+    if (contacts.source) ++metrics_.fused_from[std::min<std::size_t>((*contacts.source)[leg], 3)];
+    if (contacts.sensor) ++metrics_.sensor_rows;
     const bool healthy = !contacts.sensor || contacts.sensor->healthy[leg];
     if (!healthy) ++metrics_.distrusted_rows;
     if (!healthy && healthy_[leg]) ++metrics_.distrusted_times;
@@ -138,21 +140,22 @@ void ContactAccumulator::CountSources(const logs::ContactsRow& contacts) noexcep
 }
 
 void ContactAccumulator::AddRow(const logs::Row& row) {
-  if (!row.true_contacts || !row.contacts) return;
+  if (!row.contacts) return;
   CountSources(*row.contacts);
+  if (!row.true_contacts) return;
   Sample& sample = window_.emplace_back();
   sample.time_s = row.time_s;
   sample.truth = row.true_contacts->contact;
-  sample.words[static_cast<std::size_t>(ContactWord::kCounted)] = row.contacts->contact;
+  sample.reports[static_cast<std::size_t>(ContactDetector::kFused)] = row.contacts->contact;
   if (const auto& sensor = row.contacts->sensor) {
-    sample.words[static_cast<std::size_t>(ContactWord::kSensor)] = sensor->contact;
+    sample.reports[static_cast<std::size_t>(ContactDetector::kSensor)] = sensor->contact;
     sample.sensor_counts = sensor->counts;
   }
   if (const auto& observer = row.contacts->observer) {
-    sample.words[static_cast<std::size_t>(ContactWord::kObserver)] = observer->contact;
+    sample.reports[static_cast<std::size_t>(ContactDetector::kObserver)] = observer->contact;
     sample.observer_probability = observer->probability;
   }
-  if (row.plan) sample.words[static_cast<std::size_t>(ContactWord::kPlan)] = row.plan->stance;
+  if (row.plan) sample.reports[static_cast<std::size_t>(ContactDetector::kPlan)] = row.plan->stance;
   while (window_[judged_].time_s + kReach_s - kSameInstant_s <= row.time_s) JudgeNext();
 }
 
@@ -194,14 +197,14 @@ void ContactAccumulator::Judge(std::size_t leg) noexcept {
     (window_[i].truth[leg] ? any_contact : any_swing) = true;
   if (any_contact != any_swing) JudgeSteady(leg);
   const Sample& now = window_[judged_];
-  for (std::size_t k = 0; k < kNumContactWords; ++k) {
-    if (!now.words[k]) continue;
-    ContactQuality& q = metrics_.words[k];
-    const bool word = (*now.words[k])[leg], on = debounced_[leg];
-    q.spoke = q.spoke || word;
-    q.differed = q.differed || word != now.truth[leg];
-    matchers_[leg].touchdown[k].Update({now.time_s, on, any_contact, word}, q.touchdown);
-    matchers_[leg].liftoff[k].Update({now.time_s, !on, any_swing, !word}, q.liftoff);
+  for (std::size_t k = 0; k < kNumContactDetectors; ++k) {
+    if (!now.reports[k]) continue;
+    ContactQuality& q = metrics_.detectors[k];
+    const bool contact = (*now.reports[k])[leg], on = debounced_[leg];
+    q.reported = q.reported || contact;
+    q.differed = q.differed || contact != now.truth[leg];
+    matchers_[leg].touchdown[k].Update({now.time_s, on, any_contact, contact}, q.touchdown);
+    matchers_[leg].liftoff[k].Update({now.time_s, !on, any_swing, !contact}, q.liftoff);
   }
 }
 
@@ -209,11 +212,11 @@ void ContactAccumulator::Judge(std::size_t leg) noexcept {
 void ContactAccumulator::JudgeSteady(std::size_t leg) noexcept {
   const Sample& now = window_[judged_];
   const bool stance = now.truth[leg];
-  for (std::size_t k = 0; k < kNumContactWords; ++k) {
-    if (!now.words[k]) continue;
-    ContactQuality& q = metrics_.words[k];
+  for (std::size_t k = 0; k < kNumContactDetectors; ++k) {
+    if (!now.reports[k]) continue;
+    ContactQuality& q = metrics_.detectors[k];
     ++(stance ? q.stance_rows : q.swing_rows);
-    if ((*now.words[k])[leg] == stance) ++(stance ? q.stance_right : q.swing_right);
+    if ((*now.reports[k])[leg] == stance) ++(stance ? q.stance_right : q.swing_right);
   }
   const auto add = [stance](Evidence& e, std::size_t bin) {
     ++(stance ? e.stance : e.swing).counts[bin];
@@ -223,57 +226,82 @@ void ContactAccumulator::JudgeSteady(std::size_t leg) noexcept {
     add(metrics_.observer, Evidence::BinOfProbability((*now.observer_probability)[leg]));
 }
 
-/// One line of "bin:count" words without the empty bins, so that a result stays readable.
+/// One line of "bin:count" pairs without the empty bins, so that a result stays readable.
 template <std::size_t N>
 void to_json(nlohmann::json& j, const BinCounts<N>& b) {
-  std::string words;
+  std::string pairs;
   for (std::size_t i = 0; i < N; ++i) {
-    if (b.counts[i] > 0) words += fmt::format("{}{}:{}", words.empty() ? "" : " ", i, b.counts[i]);
+    if (b.counts[i] > 0) pairs += fmt::format("{}{}:{}", pairs.empty() ? "" : " ", i, b.counts[i]);
   }
-  j = words;
+  j = pairs;
 }
 
 template <std::size_t N>
 void from_json(const nlohmann::json& j, BinCounts<N>& b) {
   b = {};
-  std::istringstream words(j.get<std::string>());
-  for (std::string word; words >> word;) {
-    std::istringstream pair(word);
+  std::istringstream pairs(j.get<std::string>());
+  for (std::string text; pairs >> text;) {
+    std::istringstream pair(text);
     std::size_t bin = 0;
     char colon = ' ';
     std::uint64_t count = 0;
     if (!(pair >> bin >> colon >> count) || colon != ':' || bin >= N)
       throw std::runtime_error(
-          fmt::format("bins: \"{}\": expected bin:count with bin < {}", word, N));
+          fmt::format("bins: \"{}\": expected bin:count with bin < {}", text, N));
     b.counts[bin] = count;
   }
 }
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DelayHistogram, bins)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(EdgeQuality, delays, missed, false_alarms)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ContactQuality, spoke, differed, stance_rows, stance_right,
-                                   swing_rows, swing_right, touchdown, liftoff)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Evidence, stance, swing)
+
+void to_json(nlohmann::json& j, const ContactQuality& q) {
+  j = {{"reported", q.reported},       {"differed", q.differed},
+       {"stance_rows", q.stance_rows}, {"stance_right", q.stance_right},
+       {"swing_rows", q.swing_rows},   {"swing_right", q.swing_right},
+       {"touchdown", q.touchdown},     {"liftoff", q.liftoff}};
+}
+
+void from_json(const nlohmann::json& j, ContactQuality& q) {
+  j.at(j.contains("spoke") ? "spoke" : "reported").get_to(q.reported);
+  j.at("differed").get_to(q.differed);
+  j.at("stance_rows").get_to(q.stance_rows);
+  j.at("stance_right").get_to(q.stance_right);
+  j.at("swing_rows").get_to(q.swing_rows);
+  j.at("swing_right").get_to(q.swing_right);
+  j.at("touchdown").get_to(q.touchdown);
+  j.at("liftoff").get_to(q.liftoff);
+}
 
 void to_json(nlohmann::json& j, const ContactMetrics& m) {
   j = {{"sensor_evidence", m.sensor},
        {"observer_evidence", m.observer},
        {"leg_rows", m.leg_rows},
-       {"counted_from", m.counted_from},
+       {"sensor_rows", m.sensor_rows},
+       {"fused_from", m.fused_from},
        {"distrusted_rows", m.distrusted_rows},
        {"distrusted_times", m.distrusted_times}};
-  for (const auto& [word, name] : EnumNames(ContactWord{})) j["words"][name] = m.of(word);
+  for (const auto& [detector, name] : EnumNames(ContactDetector{}))
+    j["detectors"][name] = m.of(detector);
 }
 
+/// Results of version 0.1.0 have "words" of "counted" for the detectors and the fused contact.
 void from_json(const nlohmann::json& j, ContactMetrics& m) {
   j.at("sensor_evidence").get_to(m.sensor);
   j.at("observer_evidence").get_to(m.observer);
   j.at("leg_rows").get_to(m.leg_rows);
-  j.at("counted_from").get_to(m.counted_from);
   j.at("distrusted_rows").get_to(m.distrusted_rows);
   j.at("distrusted_times").get_to(m.distrusted_times);
-  for (const auto& [word, name] : EnumNames(ContactWord{}))
-    j.at("words").at(std::string(name)).get_to(m.words[static_cast<std::size_t>(word)]);
+  const bool older = j.contains("words");
+  if (!older) j.at("sensor_rows").get_to(m.sensor_rows);
+  j.at(older ? "counted_from" : "fused_from").get_to(m.fused_from);
+  const nlohmann::json& detectors = j.at(older ? "words" : "detectors");
+  for (const auto& [detector, name] : EnumNames(ContactDetector{})) {
+    const bool renamed = older && detector == ContactDetector::kFused;
+    detectors.at(renamed ? "counted" : std::string(name))
+        .get_to(m.detectors[static_cast<std::size_t>(detector)]);
+  }
 }
 
 }  // namespace scoria::analysis

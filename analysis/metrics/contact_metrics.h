@@ -15,22 +15,23 @@
 
 namespace scoria::analysis {
 
-/// Who is judged on whether a foot is on the ground.
-enum class ContactWord { kCounted, kSensor, kObserver, kPlan };
-inline constexpr std::size_t kNumContactWords = 4;
-constexpr std::array<std::pair<ContactWord, std::string_view>, kNumContactWords> EnumNames(
-    ContactWord) {
-  return {{{ContactWord::kCounted, "counted"},
-           {ContactWord::kSensor, "sensor"},
-           {ContactWord::kObserver, "observer"},
-           {ContactWord::kPlan, "gait_plan"}}};
+/// Who is judged on whether a foot is on the ground: the fused contact, on which the controller
+/// acts, and its sources.
+enum class ContactDetector { kFused, kSensor, kObserver, kPlan };
+inline constexpr std::size_t kNumContactDetectors = 4;
+constexpr std::array<std::pair<ContactDetector, std::string_view>, kNumContactDetectors> EnumNames(
+    ContactDetector) {
+  return {{{ContactDetector::kFused, "fused"},
+           {ContactDetector::kSensor, "sensor"},
+           {ContactDetector::kObserver, "observer"},
+           {ContactDetector::kPlan, "gait_plan"}}};
 }
 
-/// One source's word against the truth, all legs together.
+/// One detector against the truth, all legs together.
 struct ContactQuality {
-  bool spoke = false;     // it ever said "contact"
-  bool differed = false;  // it ever said anything but the truth
-  // Rows of legs outside ±15 ms of the true edges, and those on which the source was right.
+  bool reported = false;  // contact, ever
+  bool differed = false;  // from the truth, ever
+  // Rows of legs outside ±15 ms of the true edges, and those on which the detector was right.
   std::uint64_t stance_rows = 0, stance_right = 0, swing_rows = 0, swing_right = 0;
   EdgeQuality touchdown, liftoff;
   /// @returns NaN without rows; likewise the two below.
@@ -66,15 +67,16 @@ struct Evidence {
 
 /// Contact detection of an episode, or of several added up.
 struct ContactMetrics {
-  std::array<ContactQuality, kNumContactWords> words;
+  std::array<ContactQuality, kNumContactDetectors> detectors;
   Evidence sensor, observer;
   std::uint64_t leg_rows = 0;
-  std::array<std::uint64_t, 4> counted_from{};  // leg rows by ContactSource
+  std::array<std::uint64_t, 4> fused_from{};  // leg rows by ContactSource
+  std::uint64_t sensor_rows = 0;              // leg rows with a foot sensor
   std::uint64_t distrusted_rows = 0, distrusted_times = 0;
-  [[nodiscard]] const ContactQuality& of(ContactWord word) const noexcept {
-    return words[static_cast<std::size_t>(word)];
+  [[nodiscard]] const ContactQuality& of(ContactDetector detector) const noexcept {
+    return detectors[static_cast<std::size_t>(detector)];
   }
-  /// Something else than the truth was heard, so that there is something to judge.
+  /// Something else than the truth was reported, so that there is something to judge.
   [[nodiscard]] bool HasDetection() const noexcept;
   ContactMetrics& operator+=(const ContactMetrics& other) noexcept;
   bool operator==(const ContactMetrics&) const = default;
@@ -84,7 +86,7 @@ struct ContactMetrics {
 /// ahead, so the first and last 15 ms of a stretch are not judged.
 class ContactAccumulator {
  public:
-  /// Rows without true or estimated contacts are left out.
+  /// Rows without estimated contacts are left out; without true ones only their sources count.
   void AddRow(const logs::Row& row);
   /// Rows before and after belong to different stretches.
   void Break() noexcept;
@@ -94,11 +96,11 @@ class ContactAccumulator {
   struct Sample {
     double time_s = 0.0;
     logs::PerLeg<bool> truth{};
-    std::array<std::optional<logs::PerLeg<bool>>, kNumContactWords> words{};
+    std::array<std::optional<logs::PerLeg<bool>>, kNumContactDetectors> reports{};
     std::optional<logs::PerLeg<double>> sensor_counts, observer_probability;
   };
   struct LegMatchers {
-    std::array<EdgeMatcher, kNumContactWords> touchdown, liftoff;
+    std::array<EdgeMatcher, kNumContactDetectors> touchdown, liftoff;
   };
   void JudgeNext() noexcept;
   void Compact() noexcept;

@@ -245,8 +245,8 @@ void EstimationAccumulator::AddErrors(const logs::TruthRow& truth,
 }
 
 void EstimationAccumulator::AddConsistency(const logs::Row& row) noexcept {
+  if (row.estimate && (row.estimate->P_tilt_v || row.estimate->innovation)) present_ = true;
   if (const std::optional<double> nees = CalcNees(row)) {
-    present_ = true;
     sum_nees_ += *nees;
     ++nees_rows_;
   }
@@ -292,7 +292,31 @@ EstimationMetrics EstimationAccumulator::Finish() {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DriftSegment, distance_m, horizontal_pct, vertical_pct,
                                    yaw_deg_per_m)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RelativePoseError, stretches, horizontal_rms_m, vertical_rms_m)
+namespace {
+
+/// Null where nothing was counted.
+nlohmann::json If(std::uint64_t count, double value) {
+  return count > 0 ? nlohmann::json(value) : nlohmann::json(nullptr);
+}
+
+/// Leaves `value` as it is where there is null.
+void Read(const nlohmann::json& j, const char* key, double& value) {
+  if (const nlohmann::json& found = j.at(key); !found.is_null()) found.get_to(value);
+}
+
+}  // namespace
+
+void to_json(nlohmann::json& j, const RelativePoseError& e) {
+  j = {{"stretches", e.stretches},
+       {"horizontal_rms_m", If(e.stretches, e.horizontal_rms_m)},
+       {"vertical_rms_m", If(e.stretches, e.vertical_rms_m)}};
+}
+
+void from_json(const nlohmann::json& j, RelativePoseError& e) {
+  j.at("stretches").get_to(e.stretches);
+  Read(j, "horizontal_rms_m", e.horizontal_rms_m);
+  Read(j, "vertical_rms_m", e.vertical_rms_m);
+}
 
 void to_json(nlohmann::json& j, const EstimationMetrics& m) {
   j = {{"present", m.present},
@@ -301,16 +325,16 @@ void to_json(nlohmann::json& j, const EstimationMetrics& m) {
        {"rpe_1m", m.rpe_1m},
        {"rpe_10m", m.rpe_10m},
        {"rows", m.rows},
-       {"velocity_rmse_mps", m.velocity_rmse_mps},
-       {"roll_rmse_rad", m.roll_rmse_rad},
-       {"pitch_rmse_rad", m.pitch_rmse_rad},
-       {"nees_ratio", m.nees_ratio},
+       {"velocity_rmse_mps", If(m.rows, m.velocity_rmse_mps)},
+       {"roll_rmse_rad", If(m.rows, m.roll_rmse_rad)},
+       {"pitch_rmse_rad", If(m.rows, m.pitch_rmse_rad)},
+       {"nees_ratio", If(m.nees_rows, m.nees_ratio)},
        {"nees_rows", m.nees_rows},
-       {"nis_ratio", m.nis_ratio},
+       {"nis_ratio", If(m.nis_dof, m.nis_ratio)},
        {"nis_rows", m.nis_rows},
        {"nis_dof", m.nis_dof},
-       {"force_stance_rmse_N", m.force_stance_rmse_N},
-       {"force_swing_rmse_N", m.force_swing_rmse_N},
+       {"force_stance_rmse_N", If(m.force_stance_rows, m.force_stance_rmse_N)},
+       {"force_swing_rmse_N", If(m.force_swing_rows, m.force_swing_rmse_N)},
        {"force_stance_rows", m.force_stance_rows},
        {"force_swing_rows", m.force_swing_rows},
        {"contact", m.contact}};
@@ -323,16 +347,16 @@ void from_json(const nlohmann::json& j, EstimationMetrics& m) {
   j.at("rpe_1m").get_to(m.rpe_1m);
   j.at("rpe_10m").get_to(m.rpe_10m);
   j.at("rows").get_to(m.rows);
-  j.at("velocity_rmse_mps").get_to(m.velocity_rmse_mps);
-  j.at("roll_rmse_rad").get_to(m.roll_rmse_rad);
-  j.at("pitch_rmse_rad").get_to(m.pitch_rmse_rad);
-  j.at("nees_ratio").get_to(m.nees_ratio);
+  Read(j, "velocity_rmse_mps", m.velocity_rmse_mps);
+  Read(j, "roll_rmse_rad", m.roll_rmse_rad);
+  Read(j, "pitch_rmse_rad", m.pitch_rmse_rad);
+  Read(j, "nees_ratio", m.nees_ratio);
   j.at("nees_rows").get_to(m.nees_rows);
-  j.at("nis_ratio").get_to(m.nis_ratio);
+  Read(j, "nis_ratio", m.nis_ratio);
   j.at("nis_rows").get_to(m.nis_rows);
   j.at("nis_dof").get_to(m.nis_dof);
-  j.at("force_stance_rmse_N").get_to(m.force_stance_rmse_N);
-  j.at("force_swing_rmse_N").get_to(m.force_swing_rmse_N);
+  Read(j, "force_stance_rmse_N", m.force_stance_rmse_N);
+  Read(j, "force_swing_rmse_N", m.force_swing_rmse_N);
   j.at("force_stance_rows").get_to(m.force_stance_rows);
   j.at("force_swing_rows").get_to(m.force_swing_rows);
   j.at("contact").get_to(m.contact);

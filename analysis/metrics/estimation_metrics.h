@@ -56,7 +56,7 @@ struct RelativePoseError {
 /// State estimation and contact detection of an episode, or of several added up. Definitions:
 /// docs/METRICS.md.
 struct EstimationMetrics {
-  bool present = false;                // an estimate other than the truth, or with a covariance
+  bool present = false;                // an estimate other than the truth, or a filter's
   std::vector<DriftSegment> segments;  // of a metre or more
   int stub_segments = 0;               // of less
   RelativePoseError rpe_1m, rpe_10m;

@@ -6,17 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "analysis/metrics/optional_json.h"
 #include "analysis/statistics/stats.h"
-
-template <>
-struct nlohmann::adl_serializer<std::optional<double>> {
-  static void to_json(json& j, const std::optional<double>& value) {
-    j = value ? json(*value) : json(nullptr);
-  }
-  static void from_json(const json& j, std::optional<double>& value) {
-    value = j.is_null() ? std::nullopt : std::optional(j.get<double>());
-  }
-};
 
 namespace scoria::analysis {
 namespace {

@@ -29,8 +29,9 @@ Document ComposeReport(const ReportInput& input) {
   return document;
 }
 
-fs::path WriteReport(const fs::path& folder, const std::optional<ReportPicture>& picture) {
-  const ReportInput input = MakeReportInput(folder, LoadResults(folder), picture);
+fs::path WriteReport(const fs::path& folder, const std::optional<ReportPicture>& picture,
+                     const Metrics& metrics) {
+  const ReportInput input = MakeReportInput(folder, LoadResults(folder), picture, metrics);
   const fs::path out = folder / "report", figures = out / "figures";
   const core::FolderLock lock(out);
   core::CreateFolders(figures);

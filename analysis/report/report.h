@@ -19,6 +19,7 @@ namespace scoria::analysis {
 /// A result or log that cannot be read, or a figure that gnuplot refuses, is a sentence in it.
 /// @returns the page. Errors: std::runtime_error, core::FolderInUse, core::FileError.
 std::filesystem::path WriteReport(const std::filesystem::path& folder,
-                                  const std::optional<ReportPicture>& picture = std::nullopt);
+                                  const std::optional<ReportPicture>& picture = std::nullopt,
+                                  const Metrics& metrics = AllMetrics());
 
 }  // namespace scoria::analysis

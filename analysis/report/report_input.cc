@@ -11,13 +11,34 @@ bool ReportInput::HasMetrics() const {
                      [](const EpisodeRecord& e) { return e.has_metrics; });
 }
 
+namespace {
+
+/// That the rows of some episode had; nothing where an episode does not say.
+std::optional<logs::RowGroups> GroupsOf(const CampaignResults& results) {
+  logs::RowGroups groups;
+  for (const EpisodeRecord& e : results.episodes) {
+    if (!e.has_metrics) continue;
+    if (!e.metrics.groups) return std::nullopt;
+    groups |= *e.metrics.groups;
+  }
+  return groups.any() ? std::optional(groups) : std::nullopt;
+}
+
+}  // namespace
+
 ReportInput MakeReportInput(const std::filesystem::path& folder, CampaignResults results,
-                            std::optional<ReportPicture> picture) {
+                            std::optional<ReportPicture> picture, const Metrics& metrics) {
   ReportInput input;
   input.folder = folder;
-  input.cells = AllCells(results);
-  for (const std::string& arm : results.arms) input.pooled.push_back(PoolCell(results, arm, {}));
-  if (results.arms.size() > 1) input.comparisons = AllComparisons(results);
+  input.metrics = metrics;
+  input.groups = GroupsOf(results);
+  input.cells = AllCells(results, metrics);
+  for (const std::string& arm : results.arms)
+    input.pooled.push_back(PoolCell(results, arm, {}, metrics));
+  if (results.arms.size() > 1) {
+    input.comparisons = AllComparisons(results);
+    input.differences = AllDifferences(results, metrics);
+  }
   input.picture = std::move(picture);
   input.results = std::move(results);
   return input;

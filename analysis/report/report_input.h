@@ -7,6 +7,7 @@
 
 #include "analysis/report/document.h"
 #include "analysis/study/compare.h"
+#include "analysis/study/metric_differences.h"
 #include "analysis/study/results.h"
 
 namespace scoria::analysis {
@@ -15,9 +16,12 @@ namespace scoria::analysis {
 struct ReportInput {
   std::filesystem::path folder;  // of the campaign or run
   CampaignResults results;
-  std::vector<Cell> cells;              // every arm at every point of the sweep
-  std::vector<Cell> pooled;             // every arm over the whole sweep
-  std::vector<Comparison> comparisons;  // none of a single arm
+  std::vector<Cell> cells;                  // every arm at every point of the sweep
+  std::vector<Cell> pooled;                 // every arm over the whole sweep
+  std::vector<Comparison> comparisons;      // none of a single arm
+  std::vector<ArmDifferences> differences;  // likewise, in the same order
+  Metrics metrics;                          // the registry
+  std::optional<logs::RowGroups> groups;    // that some episode's rows had; unknown: older results
   std::optional<ReportPicture> picture;
 
   /// Some episode has numbers.
@@ -27,6 +31,7 @@ struct ReportInput {
 /// Pools and compares the results. Errors: none.
 [[nodiscard]] ReportInput MakeReportInput(const std::filesystem::path& folder,
                                           CampaignResults results,
-                                          std::optional<ReportPicture> picture);
+                                          std::optional<ReportPicture> picture,
+                                          const Metrics& metrics = AllMetrics());
 
 }  // namespace scoria::analysis

@@ -36,8 +36,8 @@ EdgeQuality& EdgeQuality::operator+=(const EdgeQuality& other) noexcept {
 }
 
 void EdgeMatcher::Update(const Instant& now, EdgeQuality& quality) noexcept {
-  const bool rises = started_ && now.word && !word_;
-  const bool falls = started_ && !now.word && word_;
+  const bool rises = started_ && now.reported && !reported_;
+  const bool falls = started_ && !now.reported && reported_;
   const bool touches = started_ && now.on && !on_;
   const bool lifts = started_ && !now.on && on_;
   if (lifts) {
@@ -54,10 +54,10 @@ void EdgeMatcher::Update(const Instant& now, EdgeQuality& quality) noexcept {
   }
   if (touches) {
     touchdown_s_ = now.time_s;
-    waiting_ = !now.word;
-    if (now.word && rose_) {
+    waiting_ = !now.reported;
+    if (now.reported && rose_) {
       quality.delays.Add(rise_s_ - now.time_s);
-    } else if (now.word && swing_seen_) {
+    } else if (now.reported && swing_seen_) {
       ++quality.missed;  // it never noticed the swing
     }
   }
@@ -67,7 +67,7 @@ void EdgeMatcher::Update(const Instant& now, EdgeQuality& quality) noexcept {
   }
   started_ = true;
   on_ = now.on;
-  word_ = now.word;
+  reported_ = now.reported;
 }
 
 }  // namespace scoria::analysis

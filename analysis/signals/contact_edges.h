@@ -37,7 +37,7 @@ struct EdgeQuality {
 ///   touchdown seen:  the source says contact at the true touchdown, since a moment in this swing
 ///                    (early), or begins to say so before the foot lifts off (late)
 ///   missed:          neither
-///   false:           the source says contact and takes it back within one true swing, unless the
+///   false:           the source says contact and ends it within one true swing, unless the
 ///                    foot truly touched within 15 ms of it
 class EdgeMatcher {
  public:
@@ -45,17 +45,17 @@ class EdgeMatcher {
     double time_s = 0.0;
     bool on = false;       // truth, without runs below 10 ms
     bool near_on = false;  // truth with them, anywhere within 15 ms
-    bool word = false;
+    bool reported = false;
   };
   void Update(const Instant& now, EdgeQuality& quality) noexcept;
   void Reset() noexcept { *this = {}; }
 
  private:
-  bool started_ = false, on_ = false, word_ = false;
+  bool started_ = false, on_ = false, reported_ = false;
   bool swing_seen_ = false;  // from its beginning
   bool rose_ = false;        // in this swing
   bool rose_near_ = false;   // the foot's true touch
-  bool waiting_ = false;     // for the word, since the true touchdown
+  bool waiting_ = false;     // for the report, since the true touchdown
   double rise_s_ = 0.0, touchdown_s_ = 0.0;
 };
 

@@ -18,14 +18,16 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 void FillMetrics(const json& j, EpisodeRecord& episode) {
-  j.at("falls").get_to(episode.falls);
-  j.at("stuck").get_to(episode.stuck);
+  EpisodeOutcome outcome;
+  j.at("falls").get_to(outcome.falls);
+  j.at("stuck").get_to(outcome.stuck);
+  j.at("real_time_factor").get_to(outcome.real_time_factor);
   j.at("walked_m").get_to(episode.walked_m);
-  j.at("real_time_factor").get_to(episode.real_time_factor);
   j.at("counters").get_to(episode.counters);
   episode.us_per_step = j.value("us_per_step", episode.us_per_step);  // not in older results
   episode.terrain = StatisticsFromJson(j.at("terrain"));
   episode.metrics = j.at("metrics").get<EpisodeMetrics>();
+  episode.metrics.outcome = outcome;
   episode.ground = j.value("ground", std::to_string(episode.seed));  // not in older results
   for (const json& p : j.value("route", json::array()))
     episode.route.emplace_back(p.at(0).get<double>(), p.at(1).get<double>());

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/metrics/metrics.h"
+#include "analysis/metrics/episode_metrics.h"
 #include "terrains/generator.h"
 
 namespace scoria::analysis {
@@ -17,8 +17,7 @@ struct EpisodeRecord {
   std::vector<std::string> point;  // value of each swept key
   std::uint64_t seed = 0;
   bool has_metrics = false;  // false for a crashed worker or a missing result
-  int falls = 0, stuck = 0;
-  double walked_m = 0.0, real_time_factor = 0.0;
+  double walked_m = 0.0;
   std::map<std::string, double> us_per_step;      // wall clock by stage
   std::map<std::string, std::uint64_t> counters;  // what did not go to plan, by name
   terrains::TerrainStatistics terrain;

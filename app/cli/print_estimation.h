@@ -2,10 +2,14 @@
 #pragma once
 
 #include "analysis/metrics/estimation_metrics.h"
+#include "logs/row.h"
 
 namespace scoria::app {
 
-/// One line on standard output: drift, velocity, attitude and contact of an estimate.
-void PrintEstimation(const char* what, const analysis::EstimationMetrics& metrics);
+/// A paragraph on stdout: drift, errors, consistency and contacts of an estimator, and what the
+/// rows do not give.
+/// @param groups  that the rows had.
+void PrintEstimation(const char* what, const analysis::EstimationMetrics& estimation,
+                     const logs::RowGroups& groups);
 
 }  // namespace scoria::app

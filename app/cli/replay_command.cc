@@ -26,8 +26,8 @@ void AddReplay(CLI::App& app, int& exit_code) {
                result.identical
                    ? fmt::format("all {} estimates have the bits of the log", result.rows)
                    : fmt::format("estimates differ from {:.3f} s on", result.first_difference_s));
-    PrintEstimation("logged", result.logged);
-    PrintEstimation("replayed", result.replayed);
+    PrintEstimation("logged", result.logged, result.groups);
+    PrintEstimation("replayed", result.replayed, result.groups);
     if (!result.identical && o->set.empty()) exit_code = kFailed;
   });
 }

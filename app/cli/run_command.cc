@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
 #include <fstream>
 #include <memory>
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include "analysis/metrics/metric_text.h"
 #include "app/cli/commands.h"
 #include "app/cli/interrupts.h"
 #include "app/cli/note.h"
-#include "app/cli/print_estimation.h"
 #include "app/cli/progress.h"
 #include "app/run/run_folder.h"
 #include "app/run/run_scenario.h"
@@ -19,39 +17,13 @@
 namespace scoria::app {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
-
 void PrintSummary(const Scenario& scenario, const EpisodeReport& report,
                   const std::string& folder) {
   const EpisodeResult& r = report.result;
   const analysis::EpisodeMetrics& m = report.metrics;
-  const analysis::TrackingErrors& t = m.tracking;
   fmt::print("{}: {} after {:.1f} s, {:.1f} m walked, {} falls, {} times stuck\n", scenario.name,
              core::EnumName(r.end), r.duration_s, m.distance_m, r.falls, r.stuck);
-  fmt::print(
-      "  speed         {:.3f} {:.3f} m/s, {:.3f} rad/s for a command of {:.3f} {:.3f} m/s, {:.3f} "
-      "rad/s\n",
-      t.velocity_x_mps, t.velocity_y_mps, t.yaw_rate_radps, t.command_x_mps, t.command_y_mps,
-      t.command_yaw_radps);
-  fmt::print(
-      "  RMSE          velocity {:.4f} m/s (stride mean), height {:.1f} mm, roll {:.2f} deg, pitch "
-      "{:.2f} deg\n",
-      t.velocity_rmse_mps, t.height_rmse_m * 1e3, t.roll_rmse_rad * kDegrees,
-      t.pitch_rmse_rad * kDegrees);
-  if (t.drift_m > 0.0) fmt::print("  standing      drift {:.2f} mm\n", t.drift_m * 1e3);
-  fmt::print(
-      "  cost of transport  mech_abs {:.3f}, mech_pos {:.3f}, electrical {:.3f}, battery "
-      "{:.3f}\n",
-      m.cot_mech_abs, m.cot_mech_pos, m.cot_electrical, m.cot_battery);
-  if (m.estimation.present) PrintEstimation("estimate", m.estimation);
-  const analysis::EnergyBudget& b = m.budget;
-  fmt::print(
-      "  energy ledger {:.0f} J motors, {:.0f} J joints, {:.0f} J ground, {:.0f} J stored, "
-      "{:.2f} % unexplained\n",
-      b.motor_J, b.joint_J, b.contact_J, b.stored_J,
-      b.motor_J != 0.0 ? 100.0 * b.error_J / std::abs(b.motor_J) : 0.0);
-  fmt::print("  solve times   MPC {:.0f} us (p99 {:.0f}), WBC {:.1f} us (p99 {:.1f})\n",
-             m.mpc.median_s * 1e6, m.mpc.p99_s * 1e6, m.wbc.median_s * 1e6, m.wbc.p99_s * 1e6);
+  fmt::print("{}", analysis::DescribeMetrics(analysis::AllMetrics(), m));
   fmt::print("  real time     {:.1f}x;", report.real_time_factor);
   for (const auto& [stage, name] : EnumNames(core::Stage{}))
     fmt::print(" {} {:.0f} %,", name, 100.0 * r.times[stage] / r.times.sum());

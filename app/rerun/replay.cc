@@ -131,6 +131,7 @@ class Replay {
   void Compare(const logs::Row& logged, const controller::ControlOutput& out) {
     logs::Row again = logged;
     FillControl(out, robot_.config.has_foot_sensors, again);
+    result_.groups |= logs::GroupsOf(logged);
     logged_.AddRow(logged);
     replayed_.AddRow(again);
     ++result_.rows;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/metrics/estimation_metrics.h"
+#include "logs/row.h"
 
 namespace scoria::app {
 
@@ -15,6 +16,7 @@ struct ReplayResult {
   bool identical = true;             // every estimate has the bits of the log's
   double first_difference_s = 0.0;   // if not
   analysis::EstimationMetrics logged, replayed;
+  logs::RowGroups groups;    // that the compared rows had
   std::string file_problem;  // where the log is damaged
 };
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/metrics/registry.h"
 #include "app/version.h"
 #include "terrains/generator.h"
 
@@ -41,6 +42,9 @@ nlohmann::json RouteToJson(const Route& route) {
 
 nlohmann::json ResultToJson(const EpisodeReport& report, const Scenario& scenario) {
   const EpisodeResult& r = report.result;
+  const analysis::Metrics all = analysis::AllMetrics();
+  nlohmann::json metrics = report.metrics;
+  metrics["scalars"] = analysis::ToJson(all, analysis::ValuesOf(all, report.metrics));
   const double per_step_us = scenario.physics.step_s / report.simulated_s * 1e6;
   return {{"scenario", scenario.name},
           {"seed", scenario.seed},
@@ -58,7 +62,7 @@ nlohmann::json ResultToJson(const EpisodeReport& report, const Scenario& scenari
           {"us_per_step", TimesToJson(r.times, per_step_us)},
           {"ground", terrains::GroundId(scenario.terrain, scenario.seed)},
           {"route", RouteToJson(r.route)},
-          {"metrics", report.metrics}};
+          {"metrics", metrics}};
 }
 
 }  // namespace scoria::app

@@ -109,6 +109,7 @@ class ScenarioRun {
     const double wall_s = r.times.sum();
     report.simulated_s = std::max(r.duration_s, scenario_.physics.step_s);
     report.real_time_factor = wall_s > 0.0 ? report.simulated_s / wall_s : 0.0;
+    report.metrics.outcome = {r.falls, r.stuck, report.real_time_factor};
   }
 
   void WriteResult(const EpisodeReport& report) const {

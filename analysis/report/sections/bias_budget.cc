@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/report/metric_table.h"
 #include "analysis/report/sections/sections.h"
 #include "analysis/report/table.h"
 #include "analysis/study/compare.h"
@@ -39,6 +40,7 @@ std::optional<std::string> WhyNot(const ReportInput& input) {
   const bool compares =
       std::any_of(axes.begin(), axes.end(), [](const Axis& a) { return !a.baseline.empty(); });
   if (!compares) return "no sweep names a baseline";
+  if (auto reason = WhyNotValid(input, Groups({logs::RowGroup::kTrueMass}))) return reason;
   if (CalcBiasBudget(input.results).empty())
     return fmt::format("no arm learned its mass until {:.0f} s after a change", kLate_s);
   return std::nullopt;

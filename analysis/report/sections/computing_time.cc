@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 
 #include <fmt/format.h>
@@ -11,28 +13,37 @@
 namespace scoria::analysis {
 namespace {
 
-/// Solvers whose times are drawn.
+/// Solvers whose times are drawn, by the keys of the metrics.
 struct Solver {
   const char* title;
-  double Cell::*median_s;
-  double Cell::*p99_s;
+  const char* median_key;
+  const char* p99_key;
 };
-constexpr std::array<Solver, 2> kSolvers = {{{"MPC [us]", &Cell::mpc_median_s, &Cell::mpc_p99_s},
-                                             {"WBC [us]", &Cell::wbc_median_s, &Cell::wbc_p99_s}}};
+constexpr std::array<Solver, 2> kSolvers = {
+    {{"MPC [us]", "mpc_median_s", "mpc_p99_s"}, {"WBC [us]", "wbc_median_s", "wbc_p99_s"}}};
 
-CaptionedFigure SolveTimes(const ReportInput& input) {
+bool HasTimes(const ReportInput& input, const Solver& solver) {
+  return std::any_of(input.pooled.begin(), input.pooled.end(),
+                     [&](const Cell& c) { return c.values.contains(solver.median_key); });
+}
+
+Block SolveTimes(const ReportInput& input) {
   BarPlot plot{"solve_times", "Solve times", input.results.arms, {}};
   for (const Solver& solver : kSolvers) {
+    if (!HasTimes(input, solver)) continue;
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     Bars median{"median", {}}, p99{"p99", {}};
     for (const Cell& cell : input.pooled) {
-      median.values.push_back(cell.*solver.median_s * 1e6);
-      p99.values.push_back(cell.*solver.p99_s * 1e6);
+      median.values.push_back(Find(cell.values, solver.median_key).value_or(kNan) * 1e6);
+      p99.values.push_back(Find(cell.values, solver.p99_key).value_or(kNan) * 1e6);
     }
     plot.panels.push_back({solver.title, {median, p99}});
   }
-  return {DrawBars(plot),
-          "Wall clock of one solve with its set-up: mean of the episodes' medians, worst of their "
-          "99th percentiles."};
+  if (plot.panels.empty()) return Paragraph{"No solve times were recorded."};
+  return CaptionedFigure{
+      DrawBars(plot),
+      "Wall clock of one solve with its set-up: mean of the episodes' medians, worst of their "
+      "99th percentiles."};
 }
 
 /// Wall-clock time of a step by stage, mean over the episodes of each arm.

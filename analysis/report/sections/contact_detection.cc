@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "analysis/plots/roc_plot.h"
+#include "analysis/report/metric_table.h"
 #include "analysis/report/sections/sections.h"
 #include "analysis/report/table.h"
 #include "core/robot/contact.h"
@@ -12,13 +13,16 @@
 namespace scoria::analysis {
 namespace {
 
+/// Contact of the episodes of a cell, added up.
+const ContactMetrics& ContactOf(const Cell& c) { return c.sum->estimation.contact; }
+
 /// How a source of contact is named and drawn.
 struct SourceLook {
   const char* title;
   Symbol symbol;
 };
-SourceLook LookOf(ContactWord source) {
-  constexpr std::array<SourceLook, kNumContactWords> kLooks = {
+SourceLook LookOf(ContactDetector source) {
+  constexpr std::array<SourceLook, kNumContactDetectors> kLooks = {
       {{"fused contact", Symbol::kDiamond},
        {"foot sensor", Symbol::kDisc},
        {"momentum observer", Symbol::kTriangle},
@@ -30,7 +34,7 @@ SourceLook LookOf(ContactWord source) {
 struct SourceLine {
   std::string arm;
   std::vector<std::string> point;
-  ContactWord source;
+  ContactDetector source;
   const ContactMetrics* metrics;
   [[nodiscard]] const ContactQuality& quality() const { return metrics->of(source); }
 };
@@ -48,8 +52,8 @@ std::string Mistakes(const EdgeQuality& q) {
 }
 
 std::string Area(const SourceLine& l) {
-  if (l.source == ContactWord::kSensor) return NumberText(l.metrics->sensor.Area(), 4);
-  if (l.source == ContactWord::kObserver) return NumberText(l.metrics->observer.Area(), 4);
+  if (l.source == ContactDetector::kSensor) return NumberText(l.metrics->sensor.Area(), 4);
+  if (l.source == ContactDetector::kObserver) return NumberText(l.metrics->observer.Area(), 4);
   return "–";
 }
 
@@ -74,26 +78,21 @@ constexpr std::array<Column<S>, 10> kSourceColumns = {{
 
 /// Share of the time that the fused contact was of a source.
 std::string UseText(const Cell& c, ContactSource source) {
-  const ContactMetrics& m = c.estimation.contact;
-  return ShareText(m.counted_from[static_cast<std::size_t>(source)], m.leg_rows, 1);
+  const ContactMetrics& m = ContactOf(c);
+  return ShareText(m.fused_from[static_cast<std::size_t>(source)], m.leg_rows, 1);
 }
 
-bool HasSensor(const Cell& c) { return c.estimation.contact.of(ContactWord::kSensor).spoke; }
+std::string DistrustedTimes(const Cell& c) {
+  const ContactMetrics& m = ContactOf(c);
+  return m.of(ContactDetector::kSensor).reported ? std::to_string(m.distrusted_times) : "–";
+}
 
-constexpr std::array<Column<Cell>, 6> kUseColumns = {{
+constexpr std::array<Column<Cell>, 5> kUseColumns = {{
     {"sensor [% of the time]", [](const Cell& c) { return UseText(c, ContactSource::kSensor); }},
     {"observer [%]", [](const Cell& c) { return UseText(c, ContactSource::kObserver); }},
     {"gait plan [%]", [](const Cell& c) { return UseText(c, ContactSource::kGaitPhase); }},
     {"truth [%]", [](const Cell& c) { return UseText(c, ContactSource::kTruth); }},
-    {"sensor distrusted [% of the time]",
-     [](const Cell& c) {
-       const ContactMetrics& m = c.estimation.contact;
-       return HasSensor(c) ? ShareText(m.distrusted_rows, m.leg_rows, 2) : "–";
-     }},
-    {"times",
-     [](const Cell& c) {
-       return HasSensor(c) ? std::to_string(c.estimation.contact.distrusted_times) : "–";
-     }},
+    {"times that a sensor was distrusted", DistrustedTimes},
 }};
 
 RocCurve CurveOf(const std::string& label, const Evidence& evidence, bool dashed) {
@@ -104,14 +103,14 @@ RocCurve CurveOf(const std::string& label, const Evidence& evidence, bool dashed
 }
 
 RocSeries RocOf(const Cell& cell) {
-  const ContactMetrics& m = cell.estimation.contact;
+  const ContactMetrics& m = ContactOf(cell);
   RocSeries series;
   series.curves = {CurveOf(cell.arm + ", sensor", m.sensor, false),
                    CurveOf(cell.arm + ", observer", m.observer, true)};
   std::erase_if(series.curves, [](const RocCurve& c) { return c.samples.empty(); });
-  for (const auto& [source, name] : EnumNames(ContactWord{})) {
+  for (const auto& [source, name] : EnumNames(ContactDetector{})) {
     const ContactQuality& q = m.of(source);
-    if (!q.spoke || q.stance_rows == 0 || q.swing_rows == 0) continue;
+    if (!q.reported || q.stance_rows == 0 || q.swing_rows == 0) continue;
     series.marks.push_back({{q.FalsePositiveRate(), q.TruePositiveRate()}, LookOf(source).symbol});
   }
   return series;
@@ -125,6 +124,7 @@ void AppendRoc(const ReportInput& input, Blocks& blocks) {
                {}};
   bool any = false;
   for (const Cell& cell : input.pooled) {
+    if (!cell.sum) continue;
     plot.series.push_back(RocOf(cell));
     any = any || !plot.series.back().curves.empty();
   }
@@ -140,28 +140,31 @@ void AppendRoc(const ReportInput& input, Blocks& blocks) {
 std::optional<std::string> WhyNot(const ReportInput& input) {
   if (!input.HasMetrics()) return "no episode left numbers";
   const bool any = std::any_of(input.cells.begin(), input.cells.end(),
-                               [](const Cell& c) { return c.estimation.contact.HasDetection(); });
-  if (!any) return "no source of contact but the truth was used";
-  return std::nullopt;
+                               [](const Cell& c) { return c.sum && ContactOf(c).HasDetection(); });
+  if (any) return std::nullopt;
+  if (auto reason = WhyNotValid(input, Groups({logs::RowGroup::kTrueContacts}))) return reason;
+  return "no source of contact but the truth was used";
 }
 
 Blocks Build(const ReportInput& input) {
   std::vector<SourceLine> sources;
   std::vector<Cell> cells;
   for (const Cell& c : input.cells) {
-    const ContactMetrics& m = c.estimation.contact;
-    if (!m.HasDetection()) continue;
+    if (!c.sum || !ContactOf(c).HasDetection()) continue;
+    const ContactMetrics& m = ContactOf(c);
     cells.push_back(c);
-    for (const auto& [source, name] : EnumNames(ContactWord{})) {
-      if (m.of(source).spoke) sources.push_back({c.arm, c.point, source, &m});
+    for (const auto& [source, name] : EnumNames(ContactDetector{})) {
+      if (m.of(source).reported) sources.push_back({c.arm, c.point, source, &m});
     }
   }
   const std::vector<Axis>& axes = input.results.axes;
   Blocks blocks = {
+      WithMetrics(PointTable(axes, cells, kUseColumns), cells,
+                  MetricsOf(input.metrics, MetricFamily::kContact)),
+      Note{
+          "Where the fused contact was from, how right it was, and how often the foot sensors were "
+          "distrusted."},
       PointTable(axes, sources, kSourceColumns),
-      Paragraph{
-          "Where the fused contact was from, and how often the foot sensors were distrusted:"},
-      PointTable(axes, cells, kUseColumns),
       Note{"Against contact of more than 5 N in the simulator. Accuracy and AUC outside ±15 ms of "
            "the true edges; contacts and gaps below 10 ms are no edges to be reported. Delays are "
            "negative where a source was early. Missed and false edges in % of the true ones."}};

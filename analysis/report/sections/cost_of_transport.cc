@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "analysis/plots/fit_plot.h"
+#include "analysis/report/metric_table.h"
 #include "analysis/report/sections/sections.h"
 
 namespace scoria::analysis {
@@ -90,6 +91,10 @@ std::optional<std::string> WhyNot(const ReportInput& input) {
       if (w.v_mps >= kSlowest_mps) return std::nullopt;
     }
   }
+  using logs::RowGroup;
+  if (auto reason =
+          WhyNotValid(input, Groups({RowGroup::kTruth, RowGroup::kTrueMass, RowGroup::kEnergy})))
+    return reason;
   return "no episode walked steadily for five seconds";
 }
 

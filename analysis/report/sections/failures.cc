@@ -9,18 +9,25 @@ namespace {
 
 std::optional<std::string> WhyNot(const ReportInput& /*input*/) { return std::nullopt; }
 
+/// Nothing where nobody counted.
+std::optional<long> CountStuck(const CampaignResults& results) {
+  std::optional<long> stuck;
+  for (const EpisodeRecord& e : results.episodes) {
+    if (e.metrics.outcome) stuck = stuck.value_or(0) + e.metrics.outcome->stuck;
+  }
+  return stuck;
+}
+
 /// Broken episodes first, then falls by cause, then what was met without falling.
 Blocks Build(const ReportInput& input) {
   const std::vector<std::string>& arms = input.results.arms;
   Blocks blocks;
   Table broken{{"episode", "ended", "message"}, {}};
   ArmCounts causes, counters;
-  long stuck = 0;
   for (const EpisodeRecord& e : input.results.episodes) {
     if (e.end != "completed" || !e.message.empty()) broken.rows.push_back({e.id, e.end, e.message});
     for (const FallEvent& f : e.metrics.falls)
       ++causes[f.cause.substr(0, f.cause.find(' '))][e.arm];
-    stuck += e.stuck;
     for (const auto& [what, times] : e.counters) {
       if (times > 0) counters[what][e.arm] += times;
     }
@@ -31,11 +38,13 @@ Blocks Build(const ReportInput& input) {
     blocks.push_back(broken);
   }
   if (!causes.empty()) blocks.push_back(CountTable("cause of fall", causes, arms));
-  const std::string times = fmt::format("Stuck {} times.", stuck);
+  const std::optional<long> stuck = CountStuck(input.results);
+  std::string text = stuck ? fmt::format("Stuck {} times.", *stuck) : "";
   if (counters.empty()) {
-    blocks.push_back(Paragraph{times});
+    if (stuck) blocks.push_back(Paragraph{text});
   } else {
-    blocks.push_back(Paragraph{times + " What the controller met and how it fell back:"});
+    text += stuck ? " " : "";
+    blocks.push_back(Paragraph{text + "What the controller met and how it fell back:"});
     blocks.push_back(CountTable("contacts, solver failures and fallbacks", counters, arms));
   }
   return blocks;

@@ -7,6 +7,7 @@
 
 #include "analysis/plots/ground_map.h"
 #include "analysis/plots/rate_plot.h"
+#include "analysis/report/metric_table.h"
 #include "analysis/report/sections/sections.h"
 #include "analysis/study/fall_groups.h"
 #include "core/config/archive.h"
@@ -141,9 +142,11 @@ std::optional<std::string> WhyNot(const ReportInput& input) {
   const auto& axes = input.results.axes;
   if (std::any_of(axes.begin(), axes.end(), IsDrawn)) return std::nullopt;
   if (!GroupFalls(input.results).empty()) return std::nullopt;
+  if (auto reason = WhyNotValid(input, Groups({logs::RowGroup::kTruth}))) return reason;
   const auto& episodes = input.results.episodes;
-  const bool fell = std::any_of(episodes.begin(), episodes.end(),
-                                [](const EpisodeRecord& e) { return e.falls > 0; });
+  const bool fell = std::any_of(episodes.begin(), episodes.end(), [](const EpisodeRecord& e) {
+    return e.metrics.outcome && e.metrics.outcome->falls > 0;
+  });
   const std::string falls =
       fell ? "the results do not say where the falls were" : "no episode fell";
   return falls + ", and no number was swept that falls could be drawn against";

@@ -7,33 +7,42 @@
 
 #include <fmt/format.h>
 
+#include "analysis/report/metric_table.h"
 #include "analysis/report/table.h"
 #include "analysis/study/fall_groups.h"
 
 namespace scoria::analysis {
 namespace {
 
-std::string Summary(const CampaignResults& results) {
-  double metres = 0.0;
-  int falls = 0;
-  for (const EpisodeRecord& e : results.episodes) {
-    metres += e.metrics.distance_m;
-    falls += e.falls;
-  }
+/// "a, b over speed (0.3, 0.6): 12 episodes, 600 m walked, 4 falls."
+std::string Summary(const ReportInput& input) {
+  const CampaignResults& results = input.results;
   std::string sweep;
   for (const Axis& axis : results.axes) {
     sweep += fmt::format("{}{} ({})", sweep.empty() ? " over " : " and ", axis.label,
                          fmt::join(axis.values, ", "));
   }
-  return fmt::format("{}{}: {} episodes, {:.0f} m walked, {} falls.", fmt::join(results.arms, ", "),
-                     sweep, results.episodes.size(), metres, falls);
+  const std::string walked = fmt::format("{}{}: {} episodes", fmt::join(results.arms, ", "), sweep,
+                                         results.episodes.size());
+  const auto reason = WhyNotValid(input, Groups({logs::RowGroup::kTruth}));
+  if (reason) return fmt::format("{}. Way and falls are not valid here: {}.", walked, *reason);
+  double metres = 0.0;
+  int falls = 0;
+  for (const EpisodeRecord& e : results.episodes) {
+    metres += e.metrics.distance_m;
+    falls += e.metrics.outcome ? e.metrics.outcome->falls : 0;
+  }
+  return fmt::format("{}, {:.0f} m walked, {} falls.", walked, metres, falls);
 }
+
+std::string DistanceText(const Cell& c) { return NumberText(Find(c.values, "distance_m"), 0); }
+std::string FallsText(const Cell& c) { return NumberText(Find(c.values, "falls"), 0); }
 
 constexpr std::array<Column<Cell>, 4> kArmColumns = {{
     {"arm", [](const Cell& c) { return c.arm; }},
-    {"metres walked", [](const Cell& c) { return fmt::format("{:.0f}", c.falls.exposure); }},
-    {"falls", [](const Cell& c) { return std::to_string(c.falls.events); }},
-    {"metres per fall", [](const Cell& c) { return MetresPerFall(c.falls); }},
+    {"metres walked", [](const Cell& c) { return DistanceText(c); }},
+    {"falls", [](const Cell& c) { return FallsText(c); }},
+    {"metres per fall", [](const Cell& c) { return MetresPerFall(c); }},
 }};
 
 /// What the budget could see, and where the falls lie.
@@ -62,7 +71,7 @@ std::vector<std::string> Facts(const ReportInput& input) {
 
 DocumentHead BuildHead(const ReportInput& input) {
   DocumentHead head;
-  head.text.push_back(Paragraph{Summary(input.results)});
+  head.text.push_back(Paragraph{Summary(input)});
   BulletList verdicts;
   for (const Comparison& c : input.comparisons) {
     if (c.point.empty()) verdicts.items.push_back(c.verdict);

@@ -5,10 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "analysis/report/sections/adaptation.h"
+#include "analysis/report/metric_table.h"
 #include "analysis/report/sections/model_course.h"
 #include "analysis/report/sections/sections.h"
 #include "analysis/report/table.h"
+#include "analysis/study/adaptation.h"
 
 namespace scoria::analysis {
 namespace {
@@ -30,39 +31,29 @@ struct IntervalLine {
   std::vector<std::string> point;
   std::string name, mass;
   std::size_t episodes = 0;
-  ModelSummary s;
+  int judged = 0, settled = 0;  // intervals
+  MetricValues values;
 };
 
-std::string SettledText(const ModelSummary& s, double value, int digits) {
-  return NumberText(When(s.settled > 0, value), digits);
-}
-
 using I = IntervalLine;
-constexpr std::array<Column<I>, 11> kIntervalColumns = {{
+constexpr std::array<Column<I>, 4> kIntervalColumns = {{
     {"interval", [](const I& l) { return l.name; }},
     {"true mass [kg]", [](const I& l) { return l.mass; }},
     {"episodes", [](const I& l) { return std::to_string(l.episodes); }},
-    {"median |bias| [kg]", [](const I& l) { return SettledText(l.s, l.s.median_bias_kg, 3); }},
-    {"95 % |bias| [kg]", [](const I& l) { return SettledText(l.s, l.s.p95_bias_kg, 3); }},
-    {"median RMSE [kg]", [](const I& l) { return SettledText(l.s, l.s.median_rmse_kg, 3); }},
-    {"median settling [s]",
-     [](const I& l) { return NumberText(When(l.s.judged > 0, l.s.median_settling_s), 2); }},
-    {"COM x RMSE [mm]",
-     [](const I& l) { return SettledText(l.s, 1e3 * l.s.median_com_x_rmse_m, 1); }},
-    {"COM y RMSE [mm]",
-     [](const I& l) { return SettledText(l.s, 1e3 * l.s.median_com_y_rmse_m, 1); }},
-    {"settled [%]",
-     [](const I& l) {
-       return l.s.judged > 0 ? fmt::format("{:.0f} ({} of {})", 100.0 * l.s.settled / l.s.judged,
-                                           l.s.settled, l.s.judged)
-                             : "–";
-     }},
-    {"median |bias| of the mass acted on [kg]",
-     [](const I& l) { return NumberText(When(l.s.used > 0, l.s.median_used_bias_kg), 3); }},
+    {"settled / judged", [](const I& l) { return fmt::format("{} / {}", l.settled, l.judged); }},
 }};
 
+/// The metrics of the registry, of these intervals alone.
+MetricValues ValuesOfIntervals(const Metrics& metrics,
+                               const std::vector<ModelInterval>& intervals) {
+  EpisodeMetrics m;
+  m.model.intervals = intervals;
+  return ValuesOf(metrics, m);
+}
+
 /// One line per number of an interval within its episode, then one for all.
-void AppendIntervalLines(const Cell& cell, std::vector<IntervalLine>& lines) {
+void AppendIntervalLines(const Cell& cell, const Metrics& metrics,
+                         std::vector<IntervalLine>& lines) {
   std::vector<std::vector<ModelInterval>> by_number;
   std::vector<ModelInterval> all;
   std::size_t episodes = 0;
@@ -76,8 +67,9 @@ void AppendIntervalLines(const Cell& cell, std::vector<IntervalLine>& lines) {
   }
   const auto append = [&](const std::string& name, std::size_t count,
                           const std::vector<ModelInterval>& intervals) {
-    lines.push_back(
-        {cell.arm, cell.point, name, MassRange(intervals), count, SummariseModel(intervals)});
+    const ModelSummary s = SummariseModel(intervals);
+    lines.push_back({cell.arm, cell.point, name, MassRange(intervals), count, s.judged, s.settled,
+                     ValuesOfIntervals(metrics, intervals)});
   };
   for (std::size_t i = 0; i < by_number.size(); ++i)
     append(std::to_string(i + 1), by_number[i].size(), by_number[i]);
@@ -164,6 +156,7 @@ void AppendCourses(const ReportInput& input, Blocks& blocks) {
 
 std::optional<std::string> WhyNot(const ReportInput& input) {
   if (!input.HasMetrics()) return "no episode left numbers";
+  if (auto reason = WhyNotValid(input, Groups({logs::RowGroup::kTrueMass}))) return reason;
   if (!AnyAdapts(input.results)) return "no arm adapted its model";
   const bool any = std::any_of(input.cells.begin(), input.cells.end(), [](const Cell& c) {
     return std::any_of(c.models.begin(), c.models.end(),
@@ -175,9 +168,10 @@ std::optional<std::string> WhyNot(const ReportInput& input) {
 
 Blocks Build(const ReportInput& input) {
   std::vector<IntervalLine> lines;
-  for (const Cell& c : input.cells) AppendIntervalLines(c, lines);
+  const Metrics metrics = MetricsOf(input.metrics, MetricFamily::kModel);
+  for (const Cell& c : input.cells) AppendIntervalLines(c, metrics, lines);
   Blocks blocks = {
-      PointTable(input.results.axes, lines, kIntervalColumns),
+      WithMetrics(PointTable(input.results.axes, lines, kIntervalColumns), lines, metrics),
       Note{"Learned against true mass and centre of mass in intervals of constant true mass. "
            "Settled: within 0.25 kg or 10 % of the step, whichever is more, and staying there; one "
            "that never settles counts with its whole duration. Bias and RMSE are of the settled "

@@ -4,23 +4,12 @@
 namespace scoria::analysis {
 
 std::vector<Section> AllSections() {
-  return {PointVerdictsSection(),
-          FailuresSection(),
-          FallsSection(),
-          CostOfTransportSection(),
-          TrackingSection(),
-          NumbersSection(),
-          StateEstimationSection(),
-          ContactDetectionSection(),
-          ModelAdaptationSection(),
-          BiasBudgetSection(),
-          AdaptedTrackingSection(),
-          EnergySection(),
-          ComputingTimeSection(),
-          GroundSection(),
-          CourseSection(),
-          VideosSection(),
-          DataSection()};
+  return {PointVerdictsSection(),   FailuresSection(),        FallsSection(),
+          CostOfTransportSection(), TrackingSection(),        NumbersSection(),
+          DifferencesSection(),     StateEstimationSection(), ContactDetectionSection(),
+          ModelAdaptationSection(), BiasBudgetSection(),      AdaptedTrackingSection(),
+          EnergySection(),          ComputingTimeSection(),   GroundSection(),
+          CourseSection(),          VideosSection(),          DataSection()};
 }
 
 }  // namespace scoria::analysis

@@ -13,6 +13,7 @@ namespace scoria::analysis {
 [[nodiscard]] Section CostOfTransportSection();
 [[nodiscard]] Section TrackingSection();
 [[nodiscard]] Section NumbersSection();
+[[nodiscard]] Section DifferencesSection();
 [[nodiscard]] Section StateEstimationSection();
 [[nodiscard]] Section ContactDetectionSection();
 [[nodiscard]] Section ModelAdaptationSection();

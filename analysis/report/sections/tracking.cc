@@ -2,48 +2,50 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <numbers>
+#include <string_view>
 
 #include "analysis/plots/bar_plot.h"
+#include "analysis/report/metric_table.h"
 #include "analysis/report/sections/sections.h"
 
 namespace scoria::analysis {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
+/// Errors that are drawn.
+constexpr std::array<std::string_view, 4> kDrawn = {"velocity_rmse_mps", "height_rmse_m",
+                                                    "roll_rmse_rad", "pitch_rmse_rad"};
 
-/// Errors that are drawn, and the scale to their unit.
-struct Error {
-  const char* title;
-  double TrackingErrors::*value;
-  double scale;
-};
-constexpr std::array<Error, 4> kErrors = {
-    {{"velocity [mm/s], stride mean", &TrackingErrors::velocity_rmse_mps, 1e3},
-     {"height [mm]", &TrackingErrors::height_rmse_m, 1e3},
-     {"roll [deg]", &TrackingErrors::roll_rmse_rad, kDegrees},
-     {"pitch [deg]", &TrackingErrors::pitch_rmse_rad, kDegrees}}};
-
-bool WalkedSteadily(const Cell& cell) { return cell.tracking.samples_s > 0.0; }
+bool HasAny(const ReportInput& input, std::string_view key) {
+  return std::any_of(input.pooled.begin(), input.pooled.end(),
+                     [&](const Cell& cell) { return cell.values.contains(key); });
+}
 
 std::optional<std::string> WhyNot(const ReportInput& input) {
-  if (std::any_of(input.pooled.begin(), input.pooled.end(), WalkedSteadily)) return std::nullopt;
+  const auto drawn = [&](std::string_view key) { return HasAny(input, key); };
+  if (std::any_of(kDrawn.begin(), kDrawn.end(), drawn)) return std::nullopt;
+  if (const Metric* velocity = FindMetric(input.metrics, kDrawn.front())) {
+    if (auto reason = WhyNotValid(input, velocity->info.needs)) return reason;
+  }
   return "no episode walked steadily";
 }
 
 Blocks Build(const ReportInput& input) {
   BarPlot plot{"tracking", "RMS tracking errors over steady walking", input.results.arms, {}};
-  for (const Error& error : kErrors) {
+  for (const std::string_view key : kDrawn) {
+    const Metric* metric = FindMetric(input.metrics, key);
+    if (metric == nullptr || !HasAny(input, key)) continue;
     Bars bars;
     for (const Cell& cell : input.pooled) {
-      bars.values.push_back(WalkedSteadily(cell) ? cell.tracking.*error.value * error.scale
-                                                 : std::numeric_limits<double>::quiet_NaN());
+      const std::optional<double> value = Find(cell.values, key);
+      bars.values.push_back(value ? metric->info.scale * *value
+                                  : std::numeric_limits<double>::quiet_NaN());
     }
-    plot.panels.push_back({error.title, {bars}});
+    plot.panels.push_back({TitleWithUnit(metric->info), {bars}});
   }
   return {CaptionedFigure{DrawBars(plot),
                           "Against the controller's reference, pooled over the sweep; the first "
-                          "three seconds after each change of command are left out."}};
+                          "three seconds after each change of command are left out. Velocity: "
+                          "averaged over a stride first."}};
 }
 
 }  // namespace

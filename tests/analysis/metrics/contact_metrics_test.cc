@@ -5,6 +5,7 @@
 #include <functional>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "analysis/metrics/estimation_metrics.h"
 #include "core/robot/contact.h"
@@ -21,15 +22,15 @@ struct Trot {
   [[nodiscard]] static bool Stance(long row) { return row >= 0 && (row / kHalf) % 2 == 1; }
 };
 
-using Words = std::function<void(long row, logs::Row&)>;
-ContactMetrics RunTrot(long rows, const Words& speak) {
+using Reports = std::function<void(long row, logs::Row&)>;
+ContactMetrics RunTrot(long rows, const Reports& report) {
   ContactAccumulator e;
   for (long i = 0; i < rows; ++i) {
     logs::Row row = test::WholeRow();
     row.episode->operating = true;
     row.time_s = kRow_s * static_cast<double>(i);
     row.true_contacts->contact.fill(Trot::Stance(i));
-    speak(i, row);
+    report(i, row);
     e.AddRow(row);
   }
   return e.metrics();
@@ -43,7 +44,7 @@ TEST(Contact, DelaysAreMeasuredOnTheGridOfRows) {
                                          Trot::Stance(i - 3));  // lifts off 6 ms late
     row.contacts->contact.fill(Trot::Stance(i));
   });
-  const ContactQuality& sensor = m.of(ContactWord::kSensor);
+  const ContactQuality& sensor = m.of(ContactDetector::kSensor);
   EXPECT_NEAR(sensor.touchdown.delays.Quantile(0.5), 0.008, 1e-12);
   EXPECT_NEAR(sensor.touchdown.delays.Quantile(0.95), 0.008, 1e-12);
   EXPECT_NEAR(sensor.liftoff.delays.Quantile(0.5), 0.008, 1e-12);
@@ -51,13 +52,13 @@ TEST(Contact, DelaysAreMeasuredOnTheGridOfRows) {
   EXPECT_EQ(sensor.touchdown.missed + sensor.touchdown.false_alarms, 0u);
   EXPECT_EQ(sensor.liftoff.missed + sensor.liftoff.false_alarms, 0u);
   EXPECT_EQ(sensor.Accuracy(), 1.0);  // within 15 ms of the edges nobody is judged
-  const ContactQuality& plan = m.of(ContactWord::kPlan);
+  const ContactQuality& plan = m.of(ContactDetector::kPlan);
   EXPECT_NEAR(plan.touchdown.delays.Quantile(0.5), -0.020, 1e-12);
   EXPECT_NEAR(plan.liftoff.delays.Quantile(0.5), -0.020, 1e-12);
   EXPECT_NEAR(plan.Accuracy(), 1.0 - 2.0 / 84.0, 1e-3);  // 2 of the 84 judged rows of a half
-  EXPECT_NEAR(m.of(ContactWord::kObserver).liftoff.delays.Quantile(0.5), 0.006, 1e-12);
-  EXPECT_NEAR(m.of(ContactWord::kObserver).touchdown.delays.Quantile(0.5), 0.0, 1e-12);
-  EXPECT_FALSE(m.of(ContactWord::kCounted).differed);
+  EXPECT_NEAR(m.of(ContactDetector::kObserver).liftoff.delays.Quantile(0.5), 0.006, 1e-12);
+  EXPECT_NEAR(m.of(ContactDetector::kObserver).touchdown.delays.Quantile(0.5), 0.0, 1e-12);
+  EXPECT_FALSE(m.of(ContactDetector::kFused).differed);
   EXPECT_TRUE(m.HasDetection());
 }
 
@@ -76,7 +77,7 @@ TEST(Contact, RowRateDoesNotMatter) {
       row.contacts->contact.fill(stance(t - 0.012) || (scuff && row_s > 0.0));
       e.AddRow(row);
     }
-    return e.metrics().of(ContactWord::kCounted);
+    return e.metrics().of(ContactDetector::kFused);
   };
   for (const double row_s : {0.001, 0.002, 0.004}) {
     const ContactQuality q = run(row_s);
@@ -96,16 +97,16 @@ TEST(Contact, MissedAndFalseTouchdownsAreCounted) {
     row.contacts->observer->contact.fill(Trot::Stance(i) &&
                                          !(at >= 150 && at < 153));  // flickers in stance
   });
-  const ContactQuality& counted = m.of(ContactWord::kCounted);
-  EXPECT_EQ(counted.touchdown.missed, 4u * 25u);
-  EXPECT_EQ(counted.touchdown.false_alarms, 4u * 20u);
-  EXPECT_EQ(counted.touchdown.delays.count(), 4u * 75u);
-  const ContactQuality& sensor = m.of(ContactWord::kSensor);
+  const ContactQuality& fused = m.of(ContactDetector::kFused);
+  EXPECT_EQ(fused.touchdown.missed, 4u * 25u);
+  EXPECT_EQ(fused.touchdown.false_alarms, 4u * 20u);
+  EXPECT_EQ(fused.touchdown.delays.count(), 4u * 75u);
+  const ContactQuality& sensor = m.of(ContactDetector::kSensor);
   EXPECT_EQ(sensor.touchdown.delays.count(), 0u);
   EXPECT_EQ(sensor.touchdown.missed, 4u * 99u);  // the first swing began unseen
   EXPECT_EQ(sensor.liftoff.missed, 4u * 99u);
   EXPECT_EQ(sensor.FalsePositiveRate(), 1.0);
-  const ContactQuality& observer = m.of(ContactWord::kObserver);
+  const ContactQuality& observer = m.of(ContactDetector::kObserver);
   EXPECT_EQ(observer.liftoff.false_alarms, 4u * 100u);
   EXPECT_EQ(observer.touchdown.false_alarms, 0u);
 }
@@ -117,11 +118,11 @@ TEST(Contact, ScuffsAreNeitherTouchdownsNorFalse) {
     if (at >= 150 && at < 154) row.true_contacts->contact.fill(false);  // a bounce in stance
     row.contacts->contact = row.true_contacts->contact;
   });
-  const ContactQuality& counted = m.of(ContactWord::kCounted);
-  EXPECT_EQ(counted.touchdown.true_edges(), 4u * 20u);
-  EXPECT_EQ(counted.touchdown.false_alarms, 0u);
-  EXPECT_EQ(counted.liftoff.false_alarms, 0u);
-  EXPECT_EQ(counted.Accuracy(), 1.0);
+  const ContactQuality& fused = m.of(ContactDetector::kFused);
+  EXPECT_EQ(fused.touchdown.true_edges(), 4u * 20u);
+  EXPECT_EQ(fused.touchdown.false_alarms, 0u);
+  EXPECT_EQ(fused.liftoff.false_alarms, 0u);
+  EXPECT_EQ(fused.Accuracy(), 1.0);
 }
 
 TEST(Contact, AreaUnderTheCurveIsThatOfTheOrder) {
@@ -153,8 +154,8 @@ TEST(Contact, DistrustAndSourcesAreCounted) {
   EXPECT_EQ(m.leg_rows, 4000u);
   EXPECT_EQ(m.distrusted_rows, 200u);
   EXPECT_EQ(m.distrusted_times, 1u);
-  EXPECT_EQ(m.counted_from[static_cast<std::size_t>(ContactSource::kSensor)], 3000u);
-  EXPECT_EQ(m.counted_from[static_cast<std::size_t>(ContactSource::kObserver)], 1000u);
+  EXPECT_EQ(m.fused_from[static_cast<std::size_t>(ContactSource::kSensor)], 3000u);
+  EXPECT_EQ(m.fused_from[static_cast<std::size_t>(ContactSource::kObserver)], 1000u);
 }
 
 TEST(Contact, PlacementsBreakTheMatching) {
@@ -168,10 +169,31 @@ TEST(Contact, PlacementsBreakTheMatching) {
     row.contacts->contact.fill(i >= 220);
     e.AddRow(row);
   }
-  const ContactQuality counted = e.Finish().contact.of(ContactWord::kCounted);
-  EXPECT_EQ(counted.touchdown.true_edges(), 0u);
-  EXPECT_EQ(counted.stance_rows, 4u * 184u);
-  EXPECT_EQ(counted.stance_right, 4u * 172u);
+  const ContactQuality fused = e.Finish().contact.of(ContactDetector::kFused);
+  EXPECT_EQ(fused.touchdown.true_edges(), 0u);
+  EXPECT_EQ(fused.stance_rows, 4u * 184u);
+  EXPECT_EQ(fused.stance_right, 4u * 172u);
+}
+
+// There, the fused contact was the one that "counted", and a detector's report its "word".
+TEST(Contact, ResultsOfVersion010AreRead) {
+  const ContactMetrics m = RunTrot(1000, [](long row, logs::Row& r) {
+    r.contacts->sensor->contact.fill(row % 100 < 40);
+    r.contacts->sensor->healthy.fill(row > 10);
+  });
+  nlohmann::json older = m;
+  older["words"] = older.at("detectors");
+  older["words"]["counted"] = older.at("detectors").at("fused");
+  older["words"].erase("fused");
+  for (auto& [name, detector] : older.at("words").items()) {
+    detector["spoke"] = detector.at("reported");
+    detector.erase("reported");
+  }
+  older["counted_from"] = older.at("fused_from");
+  for (const char* key : {"detectors", "fused_from", "sensor_rows"}) older.erase(key);
+  ContactMetrics expected = m;
+  expected.sensor_rows = 0;  // nobody counted them
+  EXPECT_EQ(older.get<ContactMetrics>(), expected);
 }
 
 }  // namespace

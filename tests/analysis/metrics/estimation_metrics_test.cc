@@ -271,7 +271,7 @@ TEST(Estimation, DriftIsNotChargedAsTrackingError) {
     m.AddRow(row);
   }
   const EpisodeMetrics r = m.Finish();
-  EXPECT_NEAR(r.tracking.height_rmse_m, 0.01, 1e-9);
+  EXPECT_NEAR(r.tracking.height_rmse_m.value(), 0.01, 1e-9);
   EXPECT_TRUE(r.estimation.present);
 }
 

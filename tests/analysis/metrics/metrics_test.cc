@@ -47,12 +47,12 @@ TEST(Metrics, ConstantWalkGivesItsOwnNumbers) {
   walk.Run(m, 20.0);
   const EpisodeMetrics r = m.Finish();
   EXPECT_NEAR(r.distance_m, 12.0, 0.31);  // whole half-second chords
-  EXPECT_NEAR(r.cot_mech_abs, 49.05 / (10.0 * 9.81 * 0.6), 0.03);
+  EXPECT_NEAR(r.cot.value().mech_abs, 49.05 / (10.0 * 9.81 * 0.6), 0.03);
   ASSERT_EQ(r.windows.size(), 3u);  // 3 s to settle, then whole windows of 5 s
   EXPECT_NEAR(r.windows[0].v_mps, 0.6, 1e-3);
   EXPECT_NEAR(r.windows[0].cot_mech_abs, 49.05 / (10.0 * 9.81 * 0.6), 1e-3);
-  EXPECT_NEAR(r.tracking.velocity_rmse_mps, 0.1, 1e-6);
-  EXPECT_NEAR(r.tracking.height_rmse_m, 0.01, 1e-9);
+  EXPECT_NEAR(r.tracking.velocity_rmse_mps.value(), 0.1, 1e-6);
+  EXPECT_NEAR(r.tracking.height_rmse_m.value(), 0.01, 1e-9);
   EXPECT_NEAR(r.mpc.median_s, 1e-4, 1e-12);
 }
 
@@ -64,7 +64,7 @@ TEST(Metrics, CostOfTransportFollowsTheMassOverTheWay) {
   walk.row_.true_mass->mass_kg = 15.0;
   walk.Run(m, 20.0);
   const EpisodeMetrics r = m.Finish();
-  EXPECT_NEAR(r.cot_mech_abs, 49.05 / (12.5 * 9.81 * 0.5), 0.01);
+  EXPECT_NEAR(r.cot.value().mech_abs, 49.05 / (12.5 * 9.81 * 0.5), 0.01);
   ASSERT_FALSE(r.windows.empty());
   EXPECT_NEAR(r.windows.front().cot_mech_abs, 49.05 / (10.0 * 9.81 * 0.5), 1e-3);
   EXPECT_NEAR(r.windows.back().cot_mech_abs, 49.05 / (15.0 * 9.81 * 0.5), 1e-3);
@@ -126,7 +126,7 @@ TEST(Metrics, SpeedRippleWithinAStrideIsNoError) {
     walk.row_.truth->v_WB_mps[0] = 0.5 + 0.1 * std::sin(2.0 * M_PI * walk.row_.time_s / 0.25);
     m.AddRow(walk.row_);
   }
-  EXPECT_LT(m.Finish().tracking.velocity_rmse_mps, 2e-3);
+  EXPECT_LT(m.Finish().tracking.velocity_rmse_mps.value(), 2e-3);
 }
 
 TEST(Metrics, StandingDriftIsTheLargestDistance) {
@@ -134,7 +134,7 @@ TEST(Metrics, StandingDriftIsTheLargestDistance) {
   Walk walk(0.001);
   walk.row_.command->v_x_mps = 0.0;
   walk.Run(m, 13.0);
-  EXPECT_NEAR(m.Finish().tracking.drift_m, 0.01, 2e-4);
+  EXPECT_NEAR(m.Finish().tracking.drift_m.value(), 0.01, 2e-4);
 }
 
 TEST(Metrics, SurviveTheJsonRoundTrip) {

@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/metrics/bias_budget.h"
-#include "analysis/report/sections/adapted_tracking.h"
 #include "analysis/report/sections/model_course.h"
+#include "analysis/study/adaptation.h"
 #include "analysis/study/compare.h"
 #include "analysis/study/fall_groups.h"
 #include "analysis/terrain/terrain_view.h"
@@ -46,8 +46,8 @@ void WriteCampaign(const fs::path& folder, const EstimationMetrics& estimation =
         m.distance_m = 50.0;
         m.mass_kg = 15.0;
         m.energy = {500.0, 300.0, 2000.0};
-        m.cot_mech_abs = 0.5;
-        m.cot_electrical = 2.0;
+        m.cot = {.mech_abs = 0.5, .electrical = 2.0};
+        m.mpc = m.wbc = {1e-4, 2e-4, 3e-4, 1000};
         for (int k = 0; k < 10; ++k)
           m.windows.push_back(
               {std::stod(speed) + 0.002 * k, std::stod(speed), 0.5 + 0.01 * k, 0.3, 2.0});
@@ -108,8 +108,8 @@ TEST(Compare, VerdictNamesWhoFallsLessWithItsInterval) {
   WriteCampaign(folder.path());
   const CampaignResults results = LoadResults(folder.path());
   const Comparison c = Compare(results, "a", "b", {"0.3"});
-  EXPECT_EQ(c.cell_a.falls.events, 0);
-  EXPECT_EQ(c.cell_b.falls.events, 18);
+  EXPECT_EQ(c.falls_a.events, 0);
+  EXPECT_EQ(c.falls_b.events, 18);
   EXPECT_LT(c.ratio.interval.high, 1.0);
   EXPECT_EQ(c.verdict.find("speed [m/s] 0.3: a falls less than b: a fell 0 times in 150 m, b 18 "
                            "times in 150 m, rate ratio 0.00"),
@@ -125,9 +125,10 @@ TEST(Compare, PooledCostCountsEnergyAndWayOfTheSameEpisodes) {
     m.distance_m = seed == 1 ? 0.5 : 50.0;
     m.transport_J = 150.0 * m.distance_m;
     m.energy.mech_abs_J = 75.0 * m.distance_m;
-    if (seed == 1) m.cot_mech_abs = 0.0;
+    if (seed == 1) m.cot.reset();
   });
-  EXPECT_NEAR(PoolCell(LoadResults(folder.path()), "a", {"0.3"}).cot_mech_abs, 0.5, 1e-12);
+  EXPECT_NEAR(PoolCell(LoadResults(folder.path()), "a", {"0.3"}).values.at("cot_mech_abs"), 0.5,
+              1e-12);
 }
 
 TEST(FallGroups, AreFallsWithinAMetreOnOneGround) {
@@ -237,7 +238,7 @@ void Adapt(const std::string& arm, int seed, EpisodeMetrics& m) {
                         .used_rows = 5000,
                         .used_bias_kg = -3.0}};
   if (arm == "a") return;
-  m.tracking.height_rmse_m -= 0.004 + 0.001 * (seed - 2);
+  *m.tracking.height_rmse_m -= 0.004 + 0.001 * (seed - 2);
   m.model.present = true;
   for (ModelInterval& i : m.model.intervals) {
     i.rows = 5000;
@@ -257,8 +258,9 @@ TEST(Report, ShowsModelAdaptation) {
   const fs::path page = WriteReport(folder.path());
   const std::string html = core::ReadText(page);
   EXPECT_NE(html.find(">Online model adaptation</h2>"), std::string::npos);
-  EXPECT_NE(html.find("<td>b</td><td>2</td><td>18.00</td><td>3</td><td>0.100</td><td>0.145</td>"
-                      "<td>0.200</td><td>1.50</td><td>3.0</td><td>2.0</td><td>100 (3 of 3)</td>"),
+  EXPECT_NE(html.find("<td>b</td><td>2</td><td>18.00</td><td>3</td><td>3 / 3</td><td>0.100</td>"
+                      "<td>0.145</td><td>0.200</td><td>1.50</td><td>3.0</td><td>2.0</td>"
+                      "<td>100</td>"),
             std::string::npos);
   EXPECT_NE(html.find("<td>b</td><td>all</td><td>15.00 to 18.00</td><td>3</td>"),
             std::string::npos);
@@ -316,15 +318,16 @@ TEST(BiasBudget, ComparesWithTheBaselineBySeed) {
 TEST(Report, PairsTrackingBySeed) {
   const test::TemporaryFolder folder;
   WriteCampaign(folder.path(), {}, Adapt);
-  const auto all = CompareTracking(LoadResults(folder.path()));
+  const auto all = CompareWithUnadapted(LoadResults(folder.path()), AllMetrics());
   ASSERT_EQ(all.size(), 3u);  // pooled, then two points
   EXPECT_EQ(all[0].arm, "b");
   EXPECT_EQ(all[0].baseline, "a");
-  EXPECT_EQ(all[0].height_difference_m.count, 3u);
-  EXPECT_NEAR(all[0].height_difference_m.mean, -0.004, 1e-12);
+  const MeanEstimate height_m = all[0].Find("height_rmse_m")->difference;
+  EXPECT_EQ(height_m.count, 3u);
+  EXPECT_NEAR(height_m.mean, -0.004, 1e-12);
   // Differences of -3, -4 and -5 mm.
-  EXPECT_NEAR(all[0].height_difference_m.interval.high, -0.004 + 0.001 * 2.484, 1e-5);
-  EXPECT_EQ(all[2].height_difference_m.count, 2u);  // one episode of a crashed
+  EXPECT_NEAR(height_m.interval.high, -0.004 + 0.001 * 2.484, 1e-5);
+  EXPECT_EQ(all[2].Find("height_rmse_m")->difference.count, 2u);  // one episode of a crashed
 }
 
 /// The course of two payloads, the second taken away gradually.

@@ -51,7 +51,7 @@ TEST(Results, BrokenOnesAreCrashedEpisodesWithTheirReason) {
     EXPECT_EQ(e.end, "crashed") << e.id;
     EXPECT_EQ(e.message.find("result.json cannot be read: "), 0u) << e.message;
     EXPECT_FALSE(e.has_metrics);
-    EXPECT_EQ(e.falls, 0);
+    EXPECT_FALSE(e.metrics.outcome);
   }
   const std::string html = core::ReadText(WriteReport(folder.path()));
   EXPECT_NE(html.find("<td>e0</td><td>crashed</td><td>result.json cannot be read: "),
@@ -81,6 +81,7 @@ std::string WholeResult() {
   EpisodeMetrics m;
   m.distance_m = 50.0;
   m.mass_kg = 15.0;
+  m.mpc = m.wbc = {1e-4, 2e-4, 3e-4, 1000};
   for (int k = 0; k < 10; ++k) m.windows.push_back({0.3 + 0.002 * k, 0.3, 0.5, 0.3, 2.0});
   m.falls.push_back({1.0, "tilt at x 0 m"});
   const json terrain = ToJson(terrains::TerrainStatistics{.materials = {{"tuff", 1.0}}});
