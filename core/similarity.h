@@ -25,7 +25,7 @@ namespace dimension {
 inline constexpr Dimension kMass{1.0, 0.0, 0.0}, kLength{0.0, 1.0, 0.0}, kTime{0.0, 0.0, 1.0};
 inline constexpr Dimension kSpeed = kLength / kTime, kRate = Pow(kTime, -1.0);
 inline constexpr Dimension kForce = kMass * kLength / Pow(kTime, 2.0);
-inline constexpr Dimension kTorque = kForce * kLength;      // also per radian
+inline constexpr Dimension kTorque = kForce * kLength;       // also per radian
 inline constexpr Dimension kJointDamping = kTorque * kTime;  // N m s / rad
 inline constexpr Dimension kInertia = kMass * Pow(kLength, 2.0);
 inline constexpr Dimension kMassMoment = kMass * kLength;

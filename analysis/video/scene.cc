@@ -2,7 +2,9 @@
 #include "analysis/video/scene.h"
 
 #include <cmath>
+#include <filesystem>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -12,6 +14,7 @@
 
 #include "analysis/video/gl_context.h"
 #include "analysis/video/meshes.h"
+#include "analysis/video/texture_colour.h"
 #include "core/robot/kinematics.h"
 #include "core/robot_files/mesh.h"
 
@@ -235,25 +238,41 @@ struct Scene::Impl {
           DrawMesh(sphere, Transform(R, p, Vec3::Constant(s.x())), shape.colour);
           break;
         case core::Shape::Kind::kMesh:
-          DrawMesh(LinkMesh(shape), Transform(R, p, Vec3::Ones()), shape.colour);
+          DrawMesh(LinkMesh(shape), Transform(R, p, Vec3::Ones()), {1.0f, 1.0f, 1.0f});
+          break;
+        case core::Shape::Kind::kHull:  // collides only
           break;
       }
     }
   }
 
-  /// A mesh of the robot, read once; nothing where the file is gone.
+  /// A mesh of the robot, read once, in its own colours; in the shape's where it has none. Nothing
+  /// where the file is gone.
   const GpuMesh& LinkMesh(const core::Shape& shape) {
-    const auto key = shape.mesh.string() + fmt::format(" {}", fmt::join(shape.size_m, " "));
+    const auto key = fmt::format("{} {} {}", shape.mesh.string(), fmt::join(shape.size_m, " "),
+                                 fmt::join(shape.colour, " "));
     const auto [it, is_new] = link_meshes.try_emplace(key);
     if (!is_new) return it->second;
     MeshData data;
     if (const auto mesh = core::LoadMesh(shape.mesh, shape.size_m)) {
-      for (std::size_t i = 0; i < mesh->points.size(); ++i)
-        data.AddVertex(mesh->points[i], mesh->normals[i]);
+      std::size_t i = 0;
+      for (const core::MeshPart& part : mesh->parts) {
+        const Vec3 colour = ColourOf(part, shape);
+        for (const std::size_t end = i + part.num_points; i < end; ++i)
+          data.AddVertex(mesh->points[i], mesh->normals[i], colour);
+      }
       data.indices = mesh->triangles;
     }
     it->second = Upload(data, {});
     return it->second;
+  }
+
+  Vec3 ColourOf(const core::MeshPart& part, const core::Shape& shape) {
+    const auto [texture, is_new] = texture_colours.try_emplace(part.texture);
+    if (is_new) texture->second = MeanColour(part.texture);
+    if (texture->second) return *texture->second;
+    const Colour colour = part.colour.value_or(shape.colour);
+    return {colour[0], colour[1], colour[2]};
   }
 
   void DrawStick(const Stick& stick) {
@@ -275,6 +294,7 @@ struct Scene::Impl {
   GLuint program = 0, framebuffer = 0;
   GpuMesh box, cylinder, sphere, patch;
   std::map<std::string, GpuMesh> link_meshes;
+  std::map<std::filesystem::path, std::optional<Vec3>> texture_colours;
   Vec2 patch_centre = Vec2::Zero();
 };
 

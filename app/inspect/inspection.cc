@@ -12,6 +12,7 @@
 
 #include "analysis/report/json_text.h"
 #include "analysis/terrain/terrain_view.h"
+#include "app/inspect/verdict.h"
 #include "app/run/robot_warnings.h"
 #include "app/scenario/config_kinds.h"
 #include "app/scenario/scenario.h"
@@ -22,15 +23,25 @@
 #include "core/robot/whole_body.h"
 #include "core/robot_files/inspect.h"
 #include "core/robot_files/load.h"
+#include "core/robot_files/shape_size.h"
 #include "core/text.h"
 #include "terrains/generator.h"
 
 namespace scoria::app {
 namespace {
 
+std::string KneesOf(const core::LegDescription& leg) {
+  return fmt::format("{}{}", core::KneeWay(leg) < 0.0 ? "back" : "forward",
+                     core::BendsEitherWay(leg) ? " (their limits allow both ways)" : "");
+}
+
 void PrintRobot(const core::RobotDescription& robot) {
   fmt::print("{}: {:.3f} kg, {} foot sensors\n", robot.config.name, robot.total_mass_kg(),
              robot.config.has_foot_sensors ? "with" : "no");
+  const core::Similarity& size = robot.similarity;
+  if (!size.IsReference())
+    fmt::print("defaults: the Go2's at {:.3f} times its mass, {:.3f} times its legs\n", size.mass,
+               size.length);
   fmt::print("{:24} {:>8} {:>24} {:>34}\n", "body", "mass kg", "COM x y z m",
              "inertia about it xx yy zz kg m^2");
   for (int i = 0; i < core::kNumBodies; ++i) {
@@ -56,6 +67,8 @@ void PrintRobot(const core::RobotDescription& robot) {
       "+-{:.3f} and {:.3f} m\n",
       c.nominal_height_m, c.max_leg_length_m, c.stance_front_m.x(), c.stance_hind_m.x(),
       c.stance_front_m.y(), c.stance_hind_m.y());
+  fmt::print("knees bend {} in front, {} behind\n", KneesOf(robot.legs[Leg::kFL]),
+             KneesOf(robot.legs[Leg::kHL]));
   core::WholeBody wb;
   RobotState standing;
   standing.q = controller::StandingPose(robot, c.nominal_height_m);
@@ -66,6 +79,37 @@ void PrintRobot(const core::RobotDescription& robot) {
       wb.p_WC.x(), wb.p_WC.y(), wb.p_WC.z(), wb.I_C_W(0, 0), wb.I_C_W(1, 1), wb.I_C_W(2, 2));
 }
 
+/// Sizes of what collides.
+void PrintShapes(const core::RobotDescription& robot) {
+  fmt::print("{:24} {:>24}\n", "collides", "edges of its box m");
+  for (const core::Shape& shape : robot.collisions) {
+    const Vec3 size_m = core::ExtentOf(shape);
+    const std::string kind = shape.kind == core::Shape::Kind::kHull
+                                 ? fmt::format("convex hull of {} points", shape.hull.size())
+                             : shape.kind == core::Shape::Kind::kBox      ? "box"
+                             : shape.kind == core::Shape::Kind::kCylinder ? "capsule"
+                             : shape.is_foot                              ? "foot"
+                                                                          : "sphere";
+    fmt::print("{:24} {:8.3f}{:8.3f}{:8.3f}   {}{}\n", shape.link, size_m.x(), size_m.y(),
+               size_m.z(), kind,
+               shape.mesh.empty() ? "" : fmt::format(", {}", shape.mesh.filename().string()));
+  }
+}
+
+/// By the defaults of a scenario.
+void PrintVerdict(const core::RobotDescription& robot) {
+  const std::vector<WalkFinding> findings =
+      JudgeRobot(robot, ConditionsOf(core::Scaled(Scenario{}, robot.similarity), robot));
+  for (const WalkFinding& finding : findings) {
+    fmt::print("{:8} {:7} {}\n", core::EnumName(finding.topic),
+               finding.grade == WalkGrade::kMet      ? "ok"
+               : finding.grade == WalkGrade::kScarce ? "scarce"
+                                                     : "NOT MET",
+               finding.text);
+  }
+  fmt::print("verdict: {}\n", Verdict(findings));
+}
+
 void AddInfo(CLI::App& app) {
   auto file = std::make_shared<std::string>();
   CLI::App* info =
@@ -74,12 +118,12 @@ void AddInfo(CLI::App& app) {
   info->callback([file] {
     const core::RobotDescription robot = ReadScaledRobot(LoadKind("robot", *file, {}));
     PrintRobot(robot);
+    PrintShapes(robot);
     std::vector<std::string> warnings = core::FindSuspicions(robot);
-    constexpr double kEarth_mps2 = 9.81;
-    for (std::string& warning :
-         WalkWarnings(robot, core::Scaled(controller::MpcParams{}, robot.similarity), kEarth_mps2))
+    for (std::string& warning : core::FindModelWarnings(robot))
       warnings.push_back(std::move(warning));
     for (const std::string& warning : warnings) fmt::print("warning: {}\n", warning);
+    PrintVerdict(robot);
   });
 }
 

@@ -50,7 +50,9 @@ json ToJson(const core::MeshRecords& meshes) {
     const auto list = [](const Vec3& v) { return json{v.x(), v.y(), v.z()}; };
     all[name] = {{"low_m", list(mesh.bounds.low)},
                  {"high_m", list(mesh.bounds.high)},
-                 {"hash", ToHex(mesh.hash)}};
+                 {"hash", ToHex(mesh.hash)},
+                 {"hull_m", json::array()}};
+    for (const Vec3& p : mesh.hull) all[name]["hull_m"].push_back(list(p));
   }
   return all;
 }
@@ -58,11 +60,14 @@ json ToJson(const core::MeshRecords& meshes) {
 core::MeshRecords MeshesFromJson(const json& all) {
   core::MeshRecords meshes;
   for (const auto& [name, mesh] : all.items()) {
-    const auto vector = [&](const char* key) {
-      const auto list = mesh.at(key).get<std::array<double, 3>>();
+    const auto vector = [](const json& value) {
+      const auto list = value.get<std::array<double, 3>>();
       return Vec3(list[0], list[1], list[2]);
     };
-    meshes[name] = {{vector("low_m"), vector("high_m")}, FromHex(mesh.at("hash"))};
+    core::MeshRecord& record = meshes[name];
+    record = {{vector(mesh.at("low_m")), vector(mesh.at("high_m"))}, FromHex(mesh.at("hash")), {}};
+    if (!mesh.contains("hull_m")) continue;
+    for (const json& p : mesh.at("hull_m")) record.hull.push_back(vector(p));
   }
   return meshes;
 }

@@ -26,8 +26,9 @@ namespace {
 
 void Warn(const Scenario& scenario, const core::RobotDescription& robot,
           const terrains::Terrain& terrain, const std::function<void(const std::string&)>& warn) {
-  for (const std::string& w : WalkWarnings(robot, scenario.controller.mpc, scenario.gravity_mps2))
+  for (const std::string& w : WalkWarnings(robot, ConditionsOf(scenario, robot)))
     warn(fmt::format("{}: {}", robot.config.name, w));
+  for (const std::string& w : TareWarnings(scenario)) warn(w);
   for (const std::string& remark : terrains::HeightmapRemarks(terrain, scenario.terrain))
     warn(fmt::format("{}: {}", scenario.terrain.name, remark));
 }

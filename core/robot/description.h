@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/config/field.h"
+#include "core/robot/leg_options.h"
 #include "core/robot/legs.h"
 #include "core/robot/mesh_bounds.h"
 #include "core/robot/payload_body.h"
@@ -104,6 +105,8 @@ struct RobotConfig {
   Vec3 lying_pose_rad = Vec3::Zero();
   double max_leg_length_m = 0.0;
   double foot_radius_m = 0.0;
+  KneeParams knees;
+  LegLimitParams limits;
   bool has_foot_sensors = true;
   std::vector<PayloadParams> equipment;
   MotorParams motors;
@@ -136,6 +139,10 @@ struct RobotConfig {
             {.min = 0.0,
              .max = 0.5,
              .doc = "sphere about the foot link; 0: the link's own collision sphere"});
+    a.Field("knees", knees, {.doc = "the way they bend"});
+    a.Field("limits", limits,
+            {.doc = "of the joints, where the URDF has none (continuous joints: +-pi) or "
+                    "placeholders"});
     a.Field("has_foot_sensors", has_foot_sensors);
     a.Field(
         "equipment", equipment,
@@ -165,6 +172,7 @@ struct JointDescription {
   Mat3 R_PJ = Mat3::Identity();
   Vec3 axis_J = Vec3::UnitX();
   double lower_rad = 0.0, upper_rad = 0.0, effort_Nm = 0.0, velocity_radps = 0.0;
+  bool is_continuous = false;  // in the URDF; limits are +-pi unless the robot's YAML has some
   double urdf_sign = 1.0, urdf_zero_rad = 0.0;
   double urdf_damping_Nms_per_rad = 0.0, urdf_friction_Nm = 0.0;  // <dynamics>; not used
 };
@@ -174,21 +182,33 @@ struct LegDescription {
   std::array<Body, 3> links;
   Vec3 p_LF = Vec3::Zero();  // foot sphere centre in the shank
   double foot_radius_m = 0.0;
+  double knee_way = -1.0;  // -1 bends backwards, +1 forwards
 };
 
 /// A shape for collision or drawing, fixed to a body: 0 the trunk, 1 + 3 leg + joint a link. Meshes
-/// are for drawing only.
+/// are for drawing only, convex hulls for collision only.
 struct Shape {
-  enum class Kind { kBox, kCylinder, kSphere, kMesh };
+  enum class Kind { kBox, kCylinder, kSphere, kMesh, kHull };
   Kind kind = Kind::kBox;
   int body = 0;
   bool is_foot = false;
-  Vec3 size_m = Vec3::Zero();  // box: edges; cylinder: radius, length; sphere: radius; mesh: scale
+  // box: edges; cylinder: radius, length; sphere: radius; mesh: scale; hull: edges of its box
+  Vec3 size_m = Vec3::Zero();
+  std::vector<Vec3> hull;  // its points, m, about the centre of its box
+  std::string link;        // of the URDF
   std::filesystem::path mesh;
   std::string mesh_name;     // as the URDF writes it
   Vec3 p_LG = Vec3::Zero();  // geometry centre in the body's link frame; cylinders along their z
   Mat3 R_LG = Mat3::Identity();
   std::array<float, 3> colour = {0.7f, 0.7f, 0.7f};
+};
+
+/// A joint that moves in the URDF, outside of the legs; it is held, and what it bears is part of
+/// the trunk.
+struct HeldJoint {
+  std::string name;
+  double mass_kg = 0.0;   // of the links beyond it, up to the next joint
+  double position = 0.0;  // rad or m: zero, or the limit nearest to it
 };
 
 /// A quadruped in the canonical joint convention: a trunk and four legs of HAA, HFE, KFE. Built
@@ -201,10 +221,11 @@ struct RobotDescription {
   Vec3 p_BS = Vec3::Zero();  // IMU in the trunk
   Mat3 R_BS = Mat3::Identity();
   std::vector<Shape> collisions, visuals;
-  Similarity similarity;                 // without its equipment
-  std::vector<std::string> remarks;      // what of the URDF could not be taken as it stands
-  std::vector<std::string> held_joints;  // that move in the URDF, outside of the legs; held at zero
-  MeshRecords meshes;                    // of a robot from a log: they stand for the files
+  Similarity similarity;              // without its equipment
+  std::vector<std::string> remarks;   // what of the URDF could not be taken as it stands
+  std::vector<std::string> warnings;  // likewise, where it changes how the robot walks
+  std::vector<HeldJoint> held_joints;
+  MeshRecords meshes;  // of a robot from a log: they stand for the files
 
   [[nodiscard]] double total_mass_kg() const;
   /// Neutral foothold in the trunk frame at z = 0: below the hip, widened by the abduction link.

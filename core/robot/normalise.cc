@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "core/robot/trunk_frame.h"
+
 namespace scoria::core {
 namespace {
 
@@ -20,10 +22,16 @@ void Redefine(JointDescription& joint, double sign, double zero_rad) {
   joint.axis_J *= sign;
   const double a = sign * (joint.lower_rad - urdf_zero_rad);
   const double b = sign * (joint.upper_rad - urdf_zero_rad);
+  joint.urdf_sign = sign;
+  if (joint.is_continuous) {
+    joint.urdf_zero_rad = urdf_zero_rad;
+    joint.lower_rad = -EIGEN_PI;
+    joint.upper_rad = EIGEN_PI;
+    return;
+  }
   const double turns_rad = 2.0 * EIGEN_PI * std::round(0.5 * (a + b) / (2.0 * EIGEN_PI));
   joint.lower_rad = std::min(a, b) - turns_rad;
   joint.upper_rad = std::max(a, b) - turns_rad;
-  joint.urdf_sign = sign;
   joint.urdf_zero_rad = urdf_zero_rad + sign * turns_rad;
 }
 
@@ -104,27 +112,14 @@ std::string TooShort(const LegDescription& leg, Leg which) {
   return "";
 }
 
-bool IsPlaced(const Vec3& hip, Leg leg) {
-  return (hip.x() > 0.0) == IsFront(leg) && (hip.y() > 0.0) == IsLeft(leg);
-}
-
 /// The four hips stand around the origin of the trunk, each in its quarter.
 std::string MisplacedHip(const RobotDescription& robot) {
-  const Vec3 middle = MiddleOfHips(robot);
-  const auto hip = [&](Leg leg) -> const Vec3& { return robot.legs[leg].joints[0].p_PJ; };
-  const bool around_middle = std::all_of(kLegs.begin(), kLegs.end(),
-                                         [&](Leg leg) { return IsPlaced(hip(leg) - middle, leg); });
   for (const Leg leg : kLegs) {
-    if (IsPlaced(hip(leg), leg)) continue;
-    if (around_middle) {
-      return fmt::format(
-          "the middle of the hips lies at ({:.3f} {:.3f} {:.3f}) m of the root link {}, which is "
-          "taken for the trunk; make the trunk the root link",
-          middle.x(), middle.y(), middle.z(), robot.trunk.name);
-    }
+    const Vec3& hip = robot.legs[leg].joints[0].p_PJ;
+    if (IsPlaced(hip, leg)) continue;
     return fmt::format(
         "{} has its hip at x {:.3f}, y {:.3f} of the trunk, where another leg should be",
-        LegName(leg), hip(leg).x(), hip(leg).y());
+        LegName(leg), hip.x(), hip.y());
   }
   return "";
 }
@@ -140,13 +135,8 @@ std::string NormaliseJoints(RobotDescription& robot) {
     }
     if (!problem.empty()) return problem;
   }
-  return MisplacedHip(robot);
-}
-
-Vec3 MiddleOfHips(const RobotDescription& robot) {
-  Vec3 sum = Vec3::Zero();
-  for (const Leg leg : kLegs) sum += robot.legs[leg].joints[0].p_PJ;
-  return 0.25 * sum;
+  const std::string problem = MisplacedHip(robot);
+  return problem.empty() ? SettleKneesAndLimits(robot) : problem;
 }
 
 double ThighLength(const LegDescription& leg) {
@@ -182,8 +172,6 @@ void DeriveDefaults(RobotDescription& robot) {
         folded};
   }
 }
-
-double KneeWay(const LegDescription& leg) { return leg.joints[2].lower_rad < -0.5 ? -1.0 : 1.0; }
 
 Vec3 LyingPose(const RobotDescription& robot, Leg leg) {
   const Vec3& pose = robot.config.lying_pose_rad;

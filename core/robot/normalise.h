@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/robot/description.h"
+#include "core/robot/knees.h"
 
 namespace scoria::core {
 
@@ -16,15 +17,8 @@ namespace scoria::core {
 /// Fills what the robot's YAML left open: nominal height, stance, lying pose, leg length.
 void DeriveDefaults(RobotDescription& robot);
 
-/// -1 where the knee bends backwards, as in the house's standing pose, +1 where its limits allow
-/// only forwards.
-[[nodiscard]] double KneeWay(const LegDescription& leg);
-
 /// The robot's lying pose for one leg, within its limits.
 [[nodiscard]] Vec3 LyingPose(const RobotDescription& robot, Leg leg);
-
-/// Mean place of the HAA joints in the root link.
-[[nodiscard]] Vec3 MiddleOfHips(const RobotDescription& robot);
 
 /// Thigh and shank, m: HFE to KFE, KFE to foot.
 [[nodiscard]] double ThighLength(const LegDescription& leg);

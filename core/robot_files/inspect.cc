@@ -9,19 +9,21 @@
 
 #include "core/robot/normalise.h"
 #include "core/robot_files/mesh.h"
+#include "core/robot_files/shape_size.h"
 
 namespace scoria::core {
 namespace {
 
 constexpr double kRelative = 0.02;  // asymmetry that a maker's rounding does not explain
 constexpr std::array<const char*, 3> kJointNames = {"HAA", "HFE", "KFE"};
+constexpr std::array<const char*, 3> kLimitKeys = {"haa", "hfe", "kfe"};
 
 bool Differ(double a, double b, double floor) {
   return std::abs(a - b) > kRelative * std::max(std::abs(a), std::abs(b)) + floor;
 }
 
 /// Principal moments satisfy a + b >= c for any distribution of mass.
-void CheckInertia(const Body& body, std::vector<std::string>& out) {
+void CheckInertia(const Body& body, double size_m, std::vector<std::string>& out) {
   const Vec3 m = Eigen::SelfAdjointEigenSolver<Mat3>(body.I_C).eigenvalues();
   if (m[0] <= 0.0) {
     out.push_back(fmt::format("{}: inertia has a principal moment of {:.3g} kg m^2, not positive",
@@ -31,11 +33,53 @@ void CheckInertia(const Body& body, std::vector<std::string>& out) {
         "{}: principal moments {:.3g}, {:.3g}, {:.3g} kg m^2 violate the triangle inequality",
         body.name, m[0], m[1], m[2]));
   }
+  if (m[2] <= 0.0) return;
   const double radius_m = std::sqrt(m[2] / body.mass_kg);
-  constexpr double kWidest_m = 1.0;
-  if (radius_m > kWidest_m) {
-    out.push_back(fmt::format("{}: radius of gyration {:.2f} m for {:.3g} kg", body.name, radius_m,
-                              body.mass_kg));
+  constexpr double kNarrowest = 0.005;  // of the robot's size
+  if (radius_m > size_m || radius_m < kNarrowest * size_m) {
+    out.push_back(
+        fmt::format("{}: radius of gyration {:.2g} m for {:.3g} kg, of a robot of {:.2f} m",
+                    body.name, radius_m, body.mass_kg, size_m));
+  }
+}
+
+/// Masses as of robots that were built: 70 to 350 kg per cubed leg length, and no link of a leg
+/// more than a tenth of it.
+void CheckMasses(const RobotDescription& robot, std::vector<std::string>& out) {
+  constexpr double kLeast_kgpm3 = 5.0, kMost_kgpm3 = 4000.0, kLargestShare = 0.25;
+  const double mass_kg = robot.total_mass_kg(), leg_m = LegLength(robot);
+  const double density_kgpm3 = mass_kg / (leg_m * leg_m * leg_m);
+  if (density_kgpm3 < kLeast_kgpm3 || density_kgpm3 > kMost_kgpm3) {
+    out.push_back(
+        fmt::format("{:.4g} kg on legs of {:.3g} m: no robot is so {}; are masses in kg, "
+                    "lengths in m?",
+                    mass_kg, leg_m, density_kgpm3 < kLeast_kgpm3 ? "light" : "heavy"));
+  }
+  for (int i = 1; i < kNumBodies; ++i) {
+    const Body& link = robot.body(i);
+    if (link.mass_kg <= kLargestShare * mass_kg) continue;
+    out.push_back(fmt::format("{}: {:.3g} of the robot's {:.3g} kg are in one link of a leg",
+                              link.name, link.mass_kg, mass_kg));
+  }
+}
+
+void CheckLimits(const RobotDescription& robot, std::vector<std::string>& out) {
+  std::vector<std::string> weak, unlimited;
+  for (const LegDescription& leg : robot.legs) {
+    for (const JointDescription& joint : leg.joints) {
+      if (joint.effort_Nm <= 0.0) weak.push_back(joint.name);
+      if (joint.velocity_radps <= 0.0) unlimited.push_back(joint.name);
+    }
+  }
+  if (!weak.empty()) {
+    out.push_back(
+        fmt::format("{}: no effort limit, so the robot cannot walk; set limits of the "
+                    "robot's YAML",
+                    fmt::join(weak, ", ")));
+  }
+  if (!unlimited.empty()) {
+    out.push_back(
+        fmt::format("{}: no velocity limit, taken as unlimited", fmt::join(unlimited, ", ")));
   }
 }
 
@@ -56,13 +100,13 @@ void CheckMirror(const RobotDescription& robot, Leg left, Leg right,
       const double sign = i == 1 ? -1.0 : 1.0;
       if (Differ(bl.p_OC[i], sign * br.p_OC[i], kFloor_m))
         tell(fmt::format("{} of the COM of the {} link", "xyz"[i], name), bl.p_OC[i], br.p_OC[i],
-             "m");
+             i == 1 ? "m, which should be opposite" : "m");
       if (Differ(bl.I_C(i, i), br.I_C(i, i), kFloor_kgm2))
         tell(fmt::format("I{0}{0} of the {1} link", "xyz"[i], name), bl.I_C(i, i), br.I_C(i, i),
              "kg m^2");
       if (Differ(l.joints[j].p_PJ[i], sign * r.joints[j].p_PJ[i], kFloor_m))
         tell(fmt::format("{} of the {} joint", "xyz"[i], name), l.joints[j].p_PJ[i],
-             r.joints[j].p_PJ[i], "m");
+             r.joints[j].p_PJ[i], i == 1 ? "m, which should be opposite" : "m");
     }
     if (Differ(l.joints[j].effort_Nm, r.joints[j].effort_Nm, 0.0))
       tell("effort of " + name, l.joints[j].effort_Nm, r.joints[j].effort_Nm, "Nm");
@@ -105,14 +149,7 @@ void CheckConfig(const RobotDescription& robot, std::vector<std::string>& out) {
   }
 }
 
-double LegLength(const RobotDescription& robot) {
-  const LegDescription& leg = robot.legs[Leg::kFL];
-  return ThighLength(leg) + ShankLength(leg);
-}
-
 constexpr double kLargestShape = 4.0, kSmallestMesh = 0.01;  // of the leg length
-constexpr const char* kScaleHint =
-    "; a mesh in millimetres needs scale=\"0.001 0.001 0.001\", one in metres none";
 
 void CheckVisuals(const RobotDescription& robot, std::vector<std::string>& out) {
   for (const Shape& shape : robot.visuals) {
@@ -130,28 +167,6 @@ void CheckVisuals(const RobotDescription& robot, std::vector<std::string>& out) 
   }
 }
 
-/// Height, stance and falls are of the root link, as if it were the trunk.
-void CheckRoot(const RobotDescription& robot, std::vector<std::string>& out) {
-  constexpr double kFarthest = 0.2;  // of the leg length; trunks' origins lie at or near the hips
-  const Vec3 p = MiddleOfHips(robot);
-  if (p.norm() <= kFarthest * LegLength(robot)) return;
-  out.push_back(fmt::format(
-      "{}: the root link is taken for the trunk, but the middle of the hips lies at ({:.3f} {:.3f} "
-      "{:.3f}) m of it; make the trunk the root link",
-      robot.trunk.name, p.x(), p.y(), p.z()));
-}
-
-Vec3 ExtentOf(const Shape& shape) {
-  switch (shape.kind) {
-    case Shape::Kind::kCylinder:
-      return {2.0 * shape.size_m[0], 2.0 * shape.size_m[0], shape.size_m[1]};
-    case Shape::Kind::kSphere:
-      return Vec3::Constant(2.0 * shape.size_m[0]);
-    default:
-      return shape.size_m;
-  }
-}
-
 void CheckShapeSizes(const RobotDescription& robot, std::vector<std::string>& out) {
   const double leg_m = LegLength(robot);
   for (const Shape& shape : robot.collisions) {
@@ -160,9 +175,8 @@ void CheckShapeSizes(const RobotDescription& robot, std::vector<std::string>& ou
     if (extent_m <= kLargestShape * leg_m && (!is_mesh || extent_m >= kSmallestMesh * leg_m))
       continue;
     out.push_back(fmt::format("{}: collides as {} of {:.4g} m, beside legs of {:.2f} m{}",
-                              robot.body(shape.body).name,
-                              is_mesh ? shape.mesh.filename().string() : "a shape", extent_m, leg_m,
-                              is_mesh ? kScaleHint : ""));
+                              shape.link, is_mesh ? shape.mesh.filename().string() : "a shape",
+                              extent_m, leg_m, is_mesh ? kScaleHint : ""));
   }
 }
 
@@ -186,14 +200,48 @@ void CheckDynamics(const RobotDescription& robot, std::vector<std::string>& out)
       damping[0], damping[1], damping[2], friction[0], friction[1], friction[2]));
 }
 
+/// Limits that no drive of such a robot has, as URDFs carry them where the makers had none to give.
+void CheckPlaceholders(const RobotDescription& robot, std::vector<std::string>& out) {
+  // Drives give 0.2 to 1.5 m g L and turn at 2 to 8 sqrt(g / L).
+  constexpr double kMostEffort = 5.0, kMostVelocity = 15.0, kEarth_mps2 = 9.81;
+  const double leg_m = LegLength(robot);
+  const double effort_Nm = kMostEffort * robot.total_mass_kg() * kEarth_mps2 * leg_m;
+  const double velocity_radps = kMostVelocity * std::sqrt(kEarth_mps2 / leg_m);
+  for (std::size_t j = 0; j < 3; ++j) {
+    const JointDescription& joint = robot.legs[Leg::kFL].joints[j];
+    const auto tell = [&](const char* key, double value, double most, const char* unit) {
+      if (value <= most) return;
+      out.push_back(fmt::format(
+          "{}: limit of {:g} {} looks like a placeholder, drives of such a robot stay below {:.3g} "
+          "{}; set limits.{}.{} in the robot's YAML",
+          joint.name, value, unit, most, unit, kLimitKeys[j], key));
+    };
+    tell("effort_Nm", joint.effort_Nm, effort_Nm, "Nm");
+    tell("velocity_radps", joint.velocity_radps, velocity_radps, "rad/s");
+  }
+}
+
+void CheckHeldJoints(const RobotDescription& robot, std::vector<std::string>& out) {
+  if (robot.held_joints.empty()) return;
+  std::vector<std::string> names;
+  double mass_kg = 0.0;
+  for (const HeldJoint& joint : robot.held_joints) {
+    names.push_back(joint.position == 0.0 ? joint.name
+                                          : fmt::format("{} ({:g}, its limit nearest to zero)",
+                                                        joint.name, joint.position));
+    mass_kg += joint.mass_kg;
+  }
+  out.push_back(
+      fmt::format("{}: in no leg, held at zero; the {:.3g} kg beyond are part of the trunk",
+                  fmt::join(names, ", "), mass_kg));
+}
+
 }  // namespace
 
 std::vector<std::string> FindModelWarnings(const RobotDescription& robot) {
-  std::vector<std::string> out;
-  if (!robot.held_joints.empty()) {
-    out.push_back(fmt::format("{}: in no leg, held at zero", fmt::join(robot.held_joints, ", ")));
-  }
-  CheckRoot(robot, out);
+  std::vector<std::string> out = robot.warnings;
+  CheckHeldJoints(robot, out);
+  CheckPlaceholders(robot, out);
   CheckShapeSizes(robot, out);
   CheckDynamics(robot, out);
   return out;
@@ -201,17 +249,9 @@ std::vector<std::string> FindModelWarnings(const RobotDescription& robot) {
 
 std::vector<std::string> FindSuspicions(const RobotDescription& robot) {
   std::vector<std::string> out = robot.remarks;
-  for (int i = 0; i < kNumBodies; ++i) CheckInertia(robot.body(i), out);
-  for (const Leg leg : kLegs) {
-    for (const JointDescription& joint : robot.legs[leg].joints) {
-      if (joint.effort_Nm <= 0.0)
-        out.push_back(fmt::format("{}: effort limit is {}, so the robot cannot walk", joint.name,
-                                  joint.effort_Nm));
-      if (joint.velocity_radps <= 0.0)
-        out.push_back(fmt::format("{}: velocity limit is {}, taken as unlimited", joint.name,
-                                  joint.velocity_radps));
-    }
-  }
+  for (int i = 0; i < kNumBodies; ++i) CheckInertia(robot.body(i), RobotSize(robot), out);
+  CheckMasses(robot, out);
+  CheckLimits(robot, out);
   CheckConfig(robot, out);
   CheckVisuals(robot, out);
   CheckMirror(robot, Leg::kFL, Leg::kFR, out);

@@ -13,9 +13,9 @@ namespace scoria::core {
 /// out. One sentence each.
 [[nodiscard]] std::vector<std::string> FindSuspicions(const RobotDescription& robot);
 
-/// What changes how a robot walks, or whether it does: a trunk that is not the root link, shapes
-/// out of proportion to the legs, joints that are held, <dynamics> that are not used. One sentence
-/// each, none of FindSuspicions.
+/// What changes how a robot walks, or whether it does: collision meshes that are lost or cut,
+/// shapes out of proportion to the legs, joints that are held, limits that are placeholders,
+/// <dynamics> that are not used. One sentence each, none of FindSuspicions.
 [[nodiscard]] std::vector<std::string> FindModelWarnings(const RobotDescription& robot);
 
 }  // namespace scoria::core

@@ -4,13 +4,19 @@
 #include <fstream>
 #include <sstream>
 
+#include <fmt/format.h>
 #include <urdf_model/model.h>
 
 #include "core/config/node.h"
+#include "core/file_kind.h"
 #include "core/math/so3.h"
 #include "core/robot/normalise.h"
+#include "core/robot/trunk_frame.h"
+#include "core/robot_files/foot_clearance.h"
+#include "core/robot_files/shape_size.h"
 #include "core/robot_files/urdf.h"
 #include "core/robot_files/urdf_tree.h"
+#include "core/robot_files/xacro.h"
 
 namespace scoria::core {
 namespace {
@@ -19,12 +25,19 @@ namespace {
   throw ConfigError({config.urdf.string(), 0, 0}, key, rule);
 }
 
-/// Bodies without visuals are drawn as what they collide as.
-void DrawBareBodies(RobotDescription& robot) {
-  std::array<bool, kNumBodies> drawn{};
-  for (const Shape& shape : robot.visuals) drawn[static_cast<std::size_t>(shape.body)] = true;
+/// Refuses shapes that cannot be of this robot, as of meshes in millimetres without scale.
+void CheckShapeSizes(const RobotDescription& robot) {
+  constexpr double kLargest = 10.0;
+  const double size_m = RobotSize(robot);
   for (const Shape& shape : robot.collisions) {
-    if (!drawn[static_cast<std::size_t>(shape.body)]) robot.visuals.push_back(shape);
+    const double extent_m = ExtentOf(shape).maxCoeff();
+    if (extent_m <= kLargest * size_m) continue;
+    Fail(
+        robot.config, shape.link,
+        fmt::format("collides as {} of {:.4g} m; a robot with {:.2f} m from hip to hip and down to "
+                    "the foot may have shapes of up to {:.3g} m{}",
+                    shape.mesh.empty() ? "a shape" : shape.mesh.string(), extent_m, size_m,
+                    kLargest * size_m, shape.mesh.empty() ? "" : kScaleHint));
   }
 }
 
@@ -48,14 +61,17 @@ RobotDescription ReadRobot(const RobotConfig& config) {
   if (std::filesystem::is_directory(config.urdf)) Fail(config, "urdf", "is a folder, not a URDF");
   std::stringstream text;
   text << in.rdbuf();
-  return MakeRobot(config, text.str());
+  const bool is_xacro = KindOfContent(text.str()).name == kXacro;
+  return MakeRobot(config, is_xacro ? ExpandXacro(config.urdf) : text.str());
 }
 
 RobotDescription LoadRobot(const RobotConfig& config) {
   const RobotDescription robot = ReadRobot(config);
   for (const Leg leg : kLegs) {
     for (const JointDescription& joint : robot.legs[leg].joints) {
-      if (joint.effort_Nm <= 0.0) Fail(config, joint.name, "needs a positive effort limit");
+      if (joint.effort_Nm <= 0.0)
+        Fail(config, joint.name,
+             "needs a positive effort limit, in the URDF or as limits of the robot's YAML");
     }
   }
   return robot;
@@ -72,13 +88,15 @@ RobotDescription MakeRobot(const RobotConfig& config, const std::string& urdf_te
   for (int i = 0; i < kNumBodies; ++i) {
     if (robot.body(i).mass_kg <= 0.0) Fail(config, robot.body(i).name, "needs a positive mass");
   }
-  DrawBareBodies(robot);
+  PlaceTrunkFrame(robot);
   const double bare_kg = robot.total_mass_kg();
   for (const PayloadParams& body : config.equipment) Mount(body, robot);
   const std::string problem = NormaliseJoints(robot);
   if (!problem.empty()) Fail(config, "legs", problem);
+  CheckShapeSizes(robot);
   robot.similarity = Similarity::Of(bare_kg, LegLength(robot.legs[Leg::kFL]));
   DeriveDefaults(robot);
+  CutBelowFeet(robot);
   return robot;
 }
 

@@ -3,13 +3,33 @@
 
 #include <array>
 #include <charconv>
+#include <string_view>
 
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include "core/robot_files/convex_hull.h"
+
 namespace scoria::core {
+namespace {
+
+/// What a material says of colour; nothing for the one that Assimp puts where a file has none.
+MeshPart PartOf(const aiMesh& mesh, const aiMaterial& material, const std::filesystem::path& file) {
+  MeshPart part{.num_points = mesh.mNumVertices, .colour = {}, .texture = {}};
+  aiString name, texture;
+  material.Get(AI_MATKEY_NAME, name);
+  if (std::string_view(name.C_Str()) == AI_DEFAULT_MATERIAL_NAME) return part;
+  aiColor4D diffuse;
+  if (material.Get(AI_MATKEY_COLOR_DIFFUSE, diffuse) == AI_SUCCESS)
+    part.colour = {diffuse.r, diffuse.g, diffuse.b};
+  if (material.GetTexture(aiTextureType_DIFFUSE, 0, &texture) == AI_SUCCESS)
+    part.texture = FindMesh(texture.C_Str(), file);
+  return part;
+}
+
+}  // namespace
 
 std::optional<TriangleMesh> LoadMesh(const std::filesystem::path& file, const Vec3& scale) {
   Assimp::Importer importer;
@@ -25,6 +45,7 @@ std::optional<TriangleMesh> LoadMesh(const std::filesystem::path& file, const Ve
   for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
     const aiMesh& part = *scene->mMeshes[m];
     const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    mesh.parts.push_back(PartOf(part, *scene->mMaterials[part.mMaterialIndex], file));
     for (unsigned v = 0; v < part.mNumVertices; ++v) {
       const aiVector3D &p = part.mVertices[v], &n = part.mNormals[v];
       mesh.points.push_back(scale.cwiseProduct(Vec3(p.x, p.y, p.z)));
@@ -52,15 +73,34 @@ MeshBounds Scaled(const MeshBounds& bounds, const Vec3& scale) {
   return {a.cwiseMin(b), a.cwiseMax(b)};
 }
 
-std::optional<MeshBounds> CalcMeshBounds(const std::filesystem::path& file, const Vec3& scale) {
-  const std::optional<TriangleMesh> mesh = LoadMesh(file, scale);
-  if (!mesh) return std::nullopt;
-  MeshBounds bounds{mesh->points.front(), mesh->points.front()};
-  for (const Vec3& p : mesh->points) {
+MeshSolid Scaled(const MeshSolid& solid, const Vec3& scale) {
+  MeshSolid out{Scaled(solid.bounds, scale), solid.hull};
+  for (Vec3& p : out.hull) p = scale.cwiseProduct(p);
+  return out;
+}
+
+namespace {
+
+MeshBounds BoundsOf(const TriangleMesh& mesh) {
+  MeshBounds bounds{mesh.points.front(), mesh.points.front()};
+  for (const Vec3& p : mesh.points) {
     bounds.low = bounds.low.cwiseMin(p);
     bounds.high = bounds.high.cwiseMax(p);
   }
   return bounds;
+}
+
+}  // namespace
+
+std::optional<MeshBounds> CalcMeshBounds(const std::filesystem::path& file, const Vec3& scale) {
+  const std::optional<TriangleMesh> mesh = LoadMesh(file, scale);
+  return mesh ? std::optional(BoundsOf(*mesh)) : std::nullopt;
+}
+
+std::optional<MeshSolid> CalcMeshSolid(const std::filesystem::path& file) {
+  const std::optional<TriangleMesh> mesh = LoadMesh(file, Vec3::Ones());
+  if (!mesh) return std::nullopt;
+  return MeshSolid{BoundsOf(*mesh), ReduceToHull(mesh->points)};
 }
 
 namespace {

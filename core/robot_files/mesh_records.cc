@@ -25,9 +25,9 @@ MeshRecords RecordMeshes(const RobotDescription& robot) {
   for (const std::vector<Shape>* shapes : {&robot.collisions, &robot.visuals}) {
     for (const Shape& shape : *shapes) {
       if (shape.mesh.empty() || records.contains(shape.mesh_name)) continue;
-      const auto bounds = CalcMeshBounds(shape.mesh, Vec3::Ones());
+      const auto solid = CalcMeshSolid(shape.mesh);
       const auto hash = HashFile(shape.mesh);
-      if (bounds && hash) records[shape.mesh_name] = {*bounds, *hash};
+      if (solid && hash) records[shape.mesh_name] = {solid->bounds, *hash, solid->hull};
     }
   }
   return records;

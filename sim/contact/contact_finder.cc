@@ -28,6 +28,20 @@ btTransform ToBullet(const Mat3& R, const Vec3& p) {
 }
 Vec3 ToVec3(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 
+/// Bullet finds contacts of convex shapes fastest and most surely within a margin around them. As
+/// of its boxes, the margin lies inside: the points move inwards, so that faces stay where they are
+/// and only corners are rounded.
+std::unique_ptr<btCollisionShape> MakeHull(const Shape& shape) {
+  constexpr double kMargin_m = 1e-3, kShare = 0.1;  // at most this of the thinnest half extent
+  const double margin_m = std::min(kMargin_m, kShare * 0.5 * shape.size_m.minCoeff());
+  const Vec3 shrink = Vec3::Ones() - (2.0 * margin_m * shape.size_m.cwiseInverse());
+  auto hull = std::make_unique<btConvexHullShape>();
+  for (const Vec3& p : shape.hull) hull->addPoint(ToBullet(shrink.cwiseProduct(p)), false);
+  hull->setMargin(margin_m);
+  hull->recalcLocalAabb();
+  return hull;
+}
+
 std::unique_ptr<btCollisionShape> MakeShape(const Shape& shape) {
   const Vec3& s = shape.size_m;
   switch (shape.kind) {
@@ -37,10 +51,12 @@ std::unique_ptr<btCollisionShape> MakeShape(const Shape& shape) {
       return std::make_unique<btCapsuleShapeZ>(s.x(), std::max(0.0, s.y() - 2.0 * s.x()));
     case Shape::Kind::kSphere:
       return std::make_unique<btSphereShape>(s.x());
+    case Shape::Kind::kHull:
+      return MakeHull(shape);
     case Shape::Kind::kMesh:
       break;
   }
-  SCORIA_DEMAND(false, "a mesh does not collide; MakeRobot puts a box in its place");
+  SCORIA_DEMAND(false, "a mesh does not collide; MakeRobot puts its hull in its place");
 }
 
 /// A heightfield whose bounds exclude nothing: Bullet drops the algorithm, and with it the order,

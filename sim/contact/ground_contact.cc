@@ -270,7 +270,8 @@ GroundContact::GroundContact(btCollisionDispatcher& dispatcher,
   constexpr int kGround = TERRAIN_SHAPE_PROXYTYPE;
   dispatcher.registerCollisionCreateFunc(SPHERE_SHAPE_PROXYTYPE, kGround, &impl_->foot_first);
   dispatcher.registerCollisionCreateFunc(kGround, SPHERE_SHAPE_PROXYTYPE, &impl_->ground_foot);
-  for (const int body : {BOX_SHAPE_PROXYTYPE, CAPSULE_SHAPE_PROXYTYPE}) {
+  for (const int body :
+       {BOX_SHAPE_PROXYTYPE, CAPSULE_SHAPE_PROXYTYPE, CONVEX_HULL_SHAPE_PROXYTYPE}) {
     dispatcher.registerCollisionCreateFunc(body, kGround, &impl_->body_first);
     dispatcher.registerCollisionCreateFunc(kGround, body, &impl_->ground_body);
   }

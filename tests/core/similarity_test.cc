@@ -86,7 +86,8 @@ TEST(Similarity, ScalesDefaultsAndNothingThatIsGiven) {
   EXPECT_EQ(std::get<Spring>(derived.link).stiffness_Nm, 80.0);
   EXPECT_EQ(derived.rods[1].length_m, 1.2);
   EXPECT_FALSE(derived.period_s);
-  const Sized given = read("{force_N: 7, link: {type: rod}, rods: [{}, {length_m: 1}], period_s: 3}");
+  const Sized given =
+      read("{force_N: 7, link: {type: rod}, rods: [{}, {length_m: 1}], period_s: 3}");
   EXPECT_EQ(given.force_N, 7.0);
   EXPECT_EQ(std::get<Rod>(given.link).length_m, 0.8) << "a default of another alternative";
   EXPECT_EQ(given.rods[0].length_m, 0.8);

@@ -51,7 +51,11 @@ void WriteCampaign(const fs::path& folder, const EstimationMetrics& estimation =
         for (int k = 0; k < 10; ++k)
           m.windows.push_back(
               {std::stod(speed) + 0.002 * k, std::stod(speed), 0.5 + 0.01 * k, 0.3, 2.0});
-        m.tracking.samples_s = 10.0;
+        m.tracking = {.samples_s = 10.0,
+                      .velocity_rmse_mps = 0.02,
+                      .height_rmse_m = 0.003,
+                      .roll_rmse_rad = 0.01,
+                      .pitch_rmse_rad = 0.01};
         m.estimation = estimation;
         const int falls = *arm == 'b' ? 6 : 0;
         for (int k = 0; k < falls; ++k) m.falls.push_back({1.0 * k, "tilt at x 0 m"});

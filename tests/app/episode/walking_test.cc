@@ -14,32 +14,13 @@
 #include "terrains/generator.h"
 #include "tests/support/robots.h"
 #include "tests/support/scenarios.h"
+#include "tests/support/walk.h"
 
 namespace scoria::app {
 namespace {
 
-struct Outcome {
-  EpisodeResult result;
-  analysis::EpisodeMetrics metrics;
-};
-
-using Monitor = std::function<void(const logs::Row&)>;
-
-Outcome Walk(const Scenario& scenario, const Monitor& monitor = {}) {
-  const core::RobotDescription robot = core::LoadRobot(scenario.robot);
-  const terrains::Heightfield ground =
-      terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);
-  analysis::MetricsAccumulator accumulator(scenario.gravity_mps2);
-  FunctionObserver observer;
-  observer.on_row = [&](const StepRecord&, const logs::Row& row) {
-    accumulator.AddRow(row);
-    if (monitor) monitor(row);
-  };
-  Outcome out;
-  out.result = RunEpisode(scenario, robot, ground, {&observer});
-  out.metrics = accumulator.Finish();
-  return out;
-}
+using Outcome = test::WalkOutcome;
+using test::Walk;
 
 struct Case {
   const char* gait;

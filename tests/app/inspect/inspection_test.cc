@@ -30,7 +30,8 @@ TEST(Info, PrintsTheRobotAndItsWarnings) {
   EXPECT_NE(go2.find("go2: 15.019 kg, with foot sensors"), std::string::npos) << go2;
   EXPECT_EQ(go2.find("warning"), std::string::npos) << go2;
   const std::string mule = Shell("info tests/data/robots/mule/mule.yaml");
-  EXPECT_NE(mule.find("warning: body: collides as the box around trunk.stl"), std::string::npos)
+  EXPECT_NE(mule.find("   0.620   0.240   0.160   convex hull of 8 points, trunk.stl\n"),
+            std::string::npos)
       << mule;
   test::TemporaryFolder folder;
   EXPECT_NE(Shell("info robots/none.yaml").find("none.yaml: cannot"), std::string::npos)
@@ -50,15 +51,25 @@ std::filesystem::path ChangedGo2(const test::TemporaryFolder& folder, const std:
   return folder.path() / "dog.yaml";
 }
 
-TEST(Info, WarnsOfAWeightThatTwoFeetMayNotCarry) {
+TEST(Info, SaysThatARobotCannotCarryItself) {
   const test::TemporaryFolder folder;
   const auto heavy = ChangedGo2(folder, "mass value=\"6.921\"", "mass value=\"60\"");
   const std::string text = Shell("info " + heavy.string());
-  EXPECT_NE(text.find("warning: 68.1 kg are 334 N per foot on two feet, more than "
-                      "controller.mpc.f_max_N 250; raise it\n"),
+  EXPECT_NE(text.find(" of 23.7 Nm; it cannot carry itself: "), std::string::npos) << text;
+  EXPECT_NE(text.find("force    ok      "), std::string::npos) << "its bound follows the mass";
+  EXPECT_EQ(text.find("warning"), std::string::npos) << text;
+}
+
+TEST(Info, EndsWithAVerdict) {
+  EXPECT_TRUE(Shell("info robots/go2/go2.yaml")
+                  .ends_with("\nverdict: nothing in these files keeps it from walking\n"));
+  const test::TemporaryFolder folder;
+  const auto slow = ChangedGo2(folder, "velocity=\"15.7\"", "velocity=\"1.5\"");
+  const std::string text = Shell("info " + slow.string());
+  EXPECT_NE(text.find("speed    NOT MET to swing a leg at 0.5 m/s, FL_calf_joint turns at "),
             std::string::npos)
       << text;
-  EXPECT_EQ(text.find("warning"), text.rfind("warning")) << text;
+  EXPECT_TRUE(text.ends_with("\nverdict: cannot walk as it is: speed\n")) << text;
 }
 
 TEST(Run, WarnsBeforeTheWalkUnlessQuiet) {
@@ -68,7 +79,8 @@ TEST(Run, WarnsBeforeTheWalkUnlessQuiet) {
   for (int i = 0; i < 400; ++i) grid += i % 20 < 2 && i < 40 ? "9 " : "0 ";  // a corner of four
   core::WriteText(folder.path() / "g.asc", grid);
   const std::string run = fmt::format(
-      "run scenarios/flat.yaml --set duration_s=0.2 --set 'robot={{base: {0}/dog.yaml}}' --set "
+      "run scenarios/flat.yaml --set duration_s=0.2 --set controller.mpc.f_max_N=250 --set "
+      "'robot={{base: {0}/dog.yaml}}' --set "
       "'terrain={{name: quarry, heightmap: {{file: {0}/g.asc}}}}' --out {0}/",
       folder.path().string());
   const std::string text = Shell(run + "told");
@@ -76,6 +88,7 @@ TEST(Run, WarnsBeforeTheWalkUnlessQuiet) {
                       "controller.mpc.f_max_N 250; raise it\n"),
             std::string::npos)
       << text;
+  EXPECT_NE(text.find(" of 23.7 Nm; it cannot carry itself: "), std::string::npos) << text;
   EXPECT_NE(text.find("warning: quarry: 3 of 400 nodes of the heightmap, steeper than "
                       "max_slope_rad 1.5, are lowered to it\n"),
             std::string::npos)

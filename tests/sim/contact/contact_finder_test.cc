@@ -80,5 +80,50 @@ TEST(ContactFinder, CopyIsIndependent) {
     ASSERT_TRUE(Same(FindAt(copy, step), FindAt(alone, step))) << step;
 }
 
+/// The robot with its trunk's box as the hull of eight corners, the upper ones moved in by
+/// `slant_m`.
+core::RobotDescription WithHull(double slant_m) {
+  core::RobotDescription robot = test::Go2();
+  core::Shape& trunk = robot.collisions.front();
+  trunk.kind = core::Shape::Kind::kHull;
+  for (int i = 0; i < 8; ++i) {
+    const bool up = i >= 4;
+    Vec3 p = 0.5 * trunk.size_m - Vec3(up ? slant_m : 0.0, 0.0, 0.0);
+    p = p.cwiseProduct(Vec3((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, up ? 1 : -1));
+    trunk.hull.push_back(p);
+  }
+  return robot;
+}
+
+/// Gap of the trunk's lowest point to flat ground, turned by `rpy_rad`, 2 mm in it by geometry.
+double TrunkGap(const core::RobotDescription& robot, const Vec3& rpy_rad) {
+  const terrains::Heightfield ground = test::FlatGround();
+  ContactFinder finder(robot, ground);
+  const Mat3 R_WB = core::RotationFromRpy(rpy_rad);
+  const core::Shape& box = test::Go2().collisions.front();
+  const Vec3 half = 0.5 * box.size_m;
+  RobotState s = test::StandingState();
+  s.R_WB = R_WB;
+  s.p_WB.z() = R_WB.row(2).cwiseAbs().dot(half) - R_WB.row(2).dot(box.p_LG) - 0.002;
+  std::vector<ContactPoint> contacts;
+  finder.Find(core::CalcLinkPoses(robot, s.p_WB, s.R_WB, s.q), s.p_WB, contacts);
+  double gap_m = 1.0;
+  for (const ContactPoint& c : contacts) {
+    if (c.body == 0) gap_m = std::min(gap_m, c.gap_m);
+  }
+  return gap_m;
+}
+
+TEST(ContactFinder, HullOfABoxTouchesWhereTheBoxDoes) {
+  constexpr double kRounded_m = 7.5e-4;  // corners by the margin of 1 mm: (3^1/2 - 1) of it
+  const core::RobotDescription hull = WithHull(0.0), slanted = WithHull(0.05);
+  for (const Vec3& rpy_rad : {Vec3(0, 0, 0), Vec3(0.3, 0.2, 0), Vec3(0.1, -1.2, 0.5),
+                              Vec3(3.0, 0.1, 0.0), Vec3(1.5, 0.4, 0.2)}) {
+    EXPECT_NEAR(TrunkGap(hull, rpy_rad), -0.002, kRounded_m) << rpy_rad.transpose();
+  }
+  EXPECT_NEAR(TrunkGap(slanted, {0.3, 0.2, 0.0}), -0.002, kRounded_m) << "on a lower corner";
+  EXPECT_GT(TrunkGap(slanted, {3.0, 0.1, 0.0}), 0.002) << "on its back, the corner is not there";
+}
+
 }  // namespace
 }  // namespace scoria::sim
