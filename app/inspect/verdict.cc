@@ -15,20 +15,15 @@ namespace {
 
 constexpr std::array<const char*, 3> kLimitKeys = {"haa", "hfe", "kfe"};
 
-double LegLength(const core::RobotDescription& robot) {
-  const core::LegDescription& leg = robot.legs[Leg::kFL];
-  return core::ThighLength(leg) + core::ShankLength(leg);
-}
-
 /// A trot as the Go2 has it, its times and lengths scaled to the robot's legs.
 struct Trot {
   double stance_s, swing_s, travel_m, lift_m;
 };
 Trot TrotOf(const core::RobotDescription& robot, double speed_mps) {
-  constexpr double kGo2Leg_m = 0.426, kPeriod_s = 0.5, kDuty = 0.6, kLift_m = 0.08;
-  const double length = LegLength(robot) / kGo2Leg_m, period_s = kPeriod_s * std::sqrt(length);
+  constexpr double kPeriod_s = 0.5, kDuty = 0.6, kLift_m = 0.08;
+  const double period_s = kPeriod_s * robot.similarity.Factor(core::dimension::kTime);
   return {kDuty * period_s, (1.0 - kDuty) * period_s, kDuty * period_s * speed_mps,
-          kLift_m * length};
+          kLift_m * robot.similarity.Factor(core::dimension::kLength)};
 }
 
 /// What a joint needs against what it has.
@@ -102,7 +97,7 @@ WalkFinding JudgeReach(const core::RobotDescription& robot, const WalkConditions
   for (const Place& place : places) {
     for (const Leg leg : kLegs) {
       const double miss_m = MissOf(robot, leg, place.offset);
-      if (miss_m <= kNear * LegLength(robot)) continue;
+      if (miss_m <= kNear * core::LegLength(robot.legs[leg])) continue;
       return {WalkTopic::kReach, WalkGrade::kNotMet,
               fmt::format("{}, {} misses its place by {:.3g} m: joint limits or legs do not reach; "
                           "set nominal_height_m, stance_front_m, stance_hind_m, knees or limits",

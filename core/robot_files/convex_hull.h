@@ -8,7 +8,8 @@
 
 namespace scoria::core {
 
-inline constexpr std::size_t kMaxHullPoints = 64;
+/// So many that contacts cost little more than those of boxes.
+inline constexpr std::size_t kMaxHullPoints = 32;
 
 /// Points that span nearly the convex hull of all: of each of kMaxHullPoints directions, evenly
 /// spread and with both ways of every axis among them, the farthest one. So the box around them is

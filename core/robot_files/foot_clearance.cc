@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/robot/kinematics.h"
+#include "core/robot/normalise.h"
 #include "core/robot/whole_body.h"
 #include "core/robot_files/convex_hull.h"
 #include "core/robot_files/shape_size.h"
@@ -42,7 +43,7 @@ std::vector<Vec3> FootOffsets(double leg_m) {
 /// trunk, where all feet stand.
 PlanesPerBody FindGround(const RobotDescription& robot) {
   PlanesPerBody planes;
-  const double height_m = robot.config.nominal_height_m, leg_m = LegLength(robot);
+  const double height_m = robot.config.nominal_height_m, leg_m = LegLength(robot.legs[Leg::kFL]);
   for (const Leg leg : kLegs) {
     const LegDescription& l = robot.legs[leg];
     const Vec3 guess(0.0, -0.8 * l.knee_way, 1.6 * l.knee_way);

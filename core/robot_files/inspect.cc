@@ -47,7 +47,7 @@ void CheckInertia(const Body& body, double size_m, std::vector<std::string>& out
 /// more than a tenth of it.
 void CheckMasses(const RobotDescription& robot, std::vector<std::string>& out) {
   constexpr double kLeast_kgpm3 = 5.0, kMost_kgpm3 = 4000.0, kLargestShare = 0.25;
-  const double mass_kg = robot.total_mass_kg(), leg_m = LegLength(robot);
+  const double mass_kg = robot.total_mass_kg(), leg_m = LegLength(robot.legs[Leg::kFL]);
   const double density_kgpm3 = mass_kg / (leg_m * leg_m * leg_m);
   if (density_kgpm3 < kLeast_kgpm3 || density_kgpm3 > kMost_kgpm3) {
     out.push_back(
@@ -160,7 +160,8 @@ void CheckVisuals(const RobotDescription& robot, std::vector<std::string>& out) 
           fmt::format("visual mesh {} cannot be read and is not drawn", shape.mesh.string()));
       continue;
     }
-    const double extent_m = (bounds->high - bounds->low).maxCoeff(), leg_m = LegLength(robot);
+    const double extent_m = (bounds->high - bounds->low).maxCoeff(),
+                 leg_m = LegLength(robot.legs[Leg::kFL]);
     if (extent_m <= kLargestShape * leg_m) continue;
     out.push_back(fmt::format("visual mesh {} is {:.4g} m wide, beside legs of {:.2f} m{}",
                               shape.mesh.string(), extent_m, leg_m, kScaleHint));
@@ -168,7 +169,7 @@ void CheckVisuals(const RobotDescription& robot, std::vector<std::string>& out) 
 }
 
 void CheckShapeSizes(const RobotDescription& robot, std::vector<std::string>& out) {
-  const double leg_m = LegLength(robot);
+  const double leg_m = LegLength(robot.legs[Leg::kFL]);
   for (const Shape& shape : robot.collisions) {
     const double extent_m = ExtentOf(shape).maxCoeff();
     const bool is_mesh = !shape.mesh.empty();
@@ -204,7 +205,7 @@ void CheckDynamics(const RobotDescription& robot, std::vector<std::string>& out)
 void CheckPlaceholders(const RobotDescription& robot, std::vector<std::string>& out) {
   // Drives give 0.2 to 1.5 m g L and turn at 2 to 8 sqrt(g / L).
   constexpr double kMostEffort = 5.0, kMostVelocity = 15.0, kEarth_mps2 = 9.81;
-  const double leg_m = LegLength(robot);
+  const double leg_m = LegLength(robot.legs[Leg::kFL]);
   const double effort_Nm = kMostEffort * robot.total_mass_kg() * kEarth_mps2 * leg_m;
   const double velocity_radps = kMostVelocity * std::sqrt(kEarth_mps2 / leg_m);
   for (std::size_t j = 0; j < 3; ++j) {

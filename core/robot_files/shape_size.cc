@@ -16,14 +16,9 @@ Vec3 ExtentOf(const Shape& shape) {
   }
 }
 
-double LegLength(const RobotDescription& robot) {
-  const LegDescription& leg = robot.legs[Leg::kFL];
-  return ThighLength(leg) + ShankLength(leg);
-}
-
 double RobotSize(const RobotDescription& robot) {
   const Vec3 across = robot.legs[Leg::kFL].joints[0].p_PJ - robot.legs[Leg::kHR].joints[0].p_PJ;
-  return across.norm() + LegLength(robot);
+  return across.norm() + LegLength(robot.legs[Leg::kFL]);
 }
 
 }  // namespace scoria::core

@@ -8,9 +8,6 @@ namespace scoria::core {
 /// Edges of the box around a shape, in its own frame, m; of a mesh for drawing its scale.
 [[nodiscard]] Vec3 ExtentOf(const Shape& shape);
 
-/// Thigh and shank, m.
-[[nodiscard]] double LegLength(const RobotDescription& robot);
-
 /// From a front hip to the hind one across, and the leg's length, m.
 [[nodiscard]] double RobotSize(const RobotDescription& robot);
 

@@ -99,6 +99,7 @@ TEST(Verdict, SwingGoesWithTheSizeOfTheRobot) {
   };
   constexpr double kLength = 1.96;
   const core::RobotDescription large = Changed([kLength](core::RobotDescription& r) {
+    r.similarity.length = kLength;
     r.config.nominal_height_m *= kLength;
     r.config.stance_front_m *= kLength;
     r.config.stance_hind_m *= kLength;
