@@ -165,7 +165,8 @@ Blocks Build(const ReportInput& input) {
           "Where the fused contact was from, how right it was, and how often the foot sensors were "
           "distrusted."},
       PointTable(axes, sources, kSourceColumns),
-      Note{"Against contact of more than 5 N in the simulator. Accuracy and AUC outside ±15 ms of "
+      Note{"Against contact of more than 5 N (Go2) in the simulator. Accuracy and AUC outside ±15 "
+           "ms of "
            "the true edges; contacts and gaps below 10 ms are no edges to be reported. Delays are "
            "negative where a source was early. Missed and false edges in % of the true ones."}};
   AppendRoc(input, blocks);

@@ -44,8 +44,7 @@ std::array<double, 2> HeightsOf(const logs::Row& r) {
 }
 
 bool BearsWeight(const logs::Row& r, std::size_t leg) {
-  constexpr double kStance_N = 5.0;
-  if (r.true_contacts) return r.true_contacts->f_F_W_N[3 * leg + 2] > kStance_N;
+  if (r.true_contacts) return r.true_contacts->contact[leg];
   return r.contacts && r.contacts->contact[leg];
 }
 
@@ -113,7 +112,8 @@ CaptionedFigure EpisodeCourse(const logs::LogContent& log, const std::string& na
       {.y_label = "fallback", .states = FallbackStates(c), .state_colour = Palette::kVermilion}};
   plot.time_s = std::move(c.time_s);
   return {DrawCourse(plot),
-          "Vertical dashes mark falls. Stance: normal force above 5 N. Fallback: of a foot sensor "
+          "Vertical dashes mark falls. Stance: normal force above 5 N (Go2). Fallback: of a foot "
+          "sensor "
           "to the momentum observer, of stages by the supervisor."};
 }
 
