@@ -101,8 +101,9 @@ const Adaptation& AdaptationKfPlus::Update(const AdapterInput& in) noexcept {
   const double dt_s = since_s_;
   since_s_ = 0.0;
   const WrenchSample sample = balance_.Take();
-  // Without a foot on the ground someone carries the robot, or it flies.
-  const bool weighs = at_work_s_ > params_.start_s && sample.steps_without_contact == 0;
+  // Without a foot on the ground someone carries the robot, or it flies; a joint stop takes load.
+  const bool weighs = at_work_s_ > params_.start_s && sample.steps_without_contact == 0 &&
+                      sample.steps_at_stop == 0;
   if (weighs && !tare_.done()) {
     tare_.Add(sample, dt_s);
   } else if (weighs) {

@@ -20,7 +20,7 @@ bool IsFinite(const AdapterInput& in) noexcept {
   return finite;
 }
 
-constexpr int kWrench = 0, kForce = 6, kTurn = 9, kFeet = 18;  // where in Prompt
+constexpr int kWrench = 0, kForce = 6, kTurn = 9, kFeet = 18, kAtStop = 30;  // where in Prompt
 
 }  // namespace
 
@@ -64,6 +64,7 @@ WrenchBalance::Signals WrenchBalance::CalcSignals(const AdapterInput& in) noexce
   now.prompt.segment<3>(kWrench + 3) = R_WB.transpose() * wrench_W.tail<3>();
   now.prompt.segment<3>(kForce) = s_B;
   now.prompt.segment<9>(kTurn) = A.reshaped();
+  now.prompt[kAtStop] = IsAtStop(state) ? 1.0 : 0.0;
   now.speed << R_WB.transpose() * speed_W.head<3>(), R_WB.transpose() * speed_W.tail<3>();
   return now;
 }
@@ -102,6 +103,18 @@ Vec3 WrenchBalance::CalcStiction(Leg leg, const RobotState& state) const noexcep
   const Vec3 known = (state.qd[leg] / params_.observer.coulomb_smooth_radps).array().tanh();
   const Vec3 t = robot_.config.motors.friction_Nm.cwiseProduct(slid_[leg] - known);
   return CalcFootForce(wb_.J_ll[leg], t, params_.observer.singular_below_m);
+}
+
+bool WrenchBalance::IsAtStop(const RobotState& state) const noexcept {
+  constexpr double kNear_rad = 0.01;
+  for (const Leg leg : kLegs) {
+    for (int j = 0; j < kJointsPerLeg; ++j) {
+      const core::JointDescription& joint = robot_.legs[leg].joints[static_cast<std::size_t>(j)];
+      const double q = state.q[leg][j];
+      if (q < joint.lower_rad + kNear_rad || q > joint.upper_rad - kNear_rad) return true;
+    }
+  }
+  return false;
 }
 
 /// Normal of the ground in W. Feet on a diagonal are both down or both up when the robot stands or
@@ -154,6 +167,8 @@ bool WrenchBalance::Add(const AdapterInput& in) noexcept {
   sum_.s_B += s_B;
   ++sum_.steps;
   sum_.steps_without_contact += stands ? 0 : 1;
+  constexpr double kFaded = 0.02;  // of a stop in the forces, since these lag
+  sum_.steps_at_stop += prompt[kAtStop] > kFaded ? 1 : 0;
   return true;
 }
 

@@ -17,6 +17,7 @@ struct WrenchSample {
   Mat63 Y = Mat63::Zero();
   Vec3 s_B = Vec3::Zero();  // specific force of B's origin
   int steps = 0, steps_without_contact = 0;
+  int steps_at_stop = 0;  // a joint leaned on its stop, whose torque no motor tells
 };
 
 struct WrenchBalanceParams {
@@ -57,7 +58,7 @@ class WrenchBalance {
   [[nodiscard]] const core::WholeBody& nominal() const noexcept { return wb_; }
 
  private:
-  static constexpr int kPrompt = 30;  // nominal wrench 6, s_B 3, A 9, p_BF_B 12
+  static constexpr int kPrompt = 31;  // nominal wrench 6, s_B 3, A 9, p_BF_B 12, at a stop 1
   using Prompt = Eigen::Matrix<double, kPrompt, 1>;
   struct Signals {
     Prompt prompt = Prompt::Zero();
@@ -67,6 +68,7 @@ class WrenchBalance {
   void Slide(const RobotState& state) noexcept;
   void Filter(const Signals& now, double dt_s) noexcept;
   [[nodiscard]] Vec3 CalcStiction(Leg leg, const RobotState& state) const noexcept;
+  [[nodiscard]] bool IsAtStop(const RobotState& state) const noexcept;
   [[nodiscard]] Vec3 CalcGroundNormal_W() const noexcept;
   [[nodiscard]] Vec3 MoveToContact(Leg leg, const Vec3& f_F_W, const Vec3& p_FK_W) const noexcept;
 

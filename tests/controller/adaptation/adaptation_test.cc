@@ -313,6 +313,24 @@ TEST(KfPlus, ARobotWithoutGroundWeighsWhatItDid) {
   EXPECT_NEAR(robot.Run(5.0).mass_kg, robot.mass_kg(), 0.01);
 }
 
+/// What a stop takes no motor tells: such a robot seems lighter than it is.
+TEST(KfPlus, AJointAtItsStopTellsNothing) {
+  for (const bool at_stop : {true, false}) {
+    Standing robot(Untared());
+    robot.SetPayload(2.0, kPlace);
+    robot.Run(5.0);
+    robot.force()[Leg::kFL] *= 0.5;
+    if (at_stop)
+      robot.state().q[Leg::kFL].y() = robot.robot().legs[Leg::kFL].joints[1].upper_rad - 0.005;
+    const double error_kg = robot.Run(5.0).mass_kg - robot.mass_kg();
+    if (at_stop) {
+      EXPECT_NEAR(error_kg, 0.0, 0.01);
+    } else {
+      EXPECT_LT(error_kg, -1.0);
+    }
+  }
+}
+
 TEST(KfPlus, TareTakesOffACommonGain) {
   for (const bool tare : {true, false}) {
     KfPlusParams params;
