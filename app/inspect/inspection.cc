@@ -2,6 +2,7 @@
 #include "app/inspect/inspection.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -12,6 +13,7 @@
 
 #include "analysis/report/json_text.h"
 #include "analysis/terrain/terrain_view.h"
+#include "app/inspect/derived_defaults.h"
 #include "app/inspect/verdict.h"
 #include "app/run/robot_warnings.h"
 #include "app/scenario/config_kinds.h"
@@ -40,8 +42,10 @@ void PrintRobot(const core::RobotDescription& robot) {
              robot.config.has_foot_sensors ? "with" : "no");
   const core::Similarity& size = robot.similarity;
   if (!size.IsReference())
-    fmt::print("defaults: the Go2's at {:.3f} times its mass, {:.3f} times its legs\n", size.mass,
-               size.length);
+    fmt::print(
+        "defaults: the Go2's at {:.3f} times its mass, {:.3f} times its legs; --defaults lists "
+        "them\n",
+        size.mass, size.length);
   fmt::print("{:24} {:>8} {:>24} {:>34}\n", "body", "mass kg", "COM x y z m",
              "inertia about it xx yy zz kg m^2");
   for (int i = 0; i < core::kNumBodies; ++i) {
@@ -96,6 +100,21 @@ void PrintShapes(const core::RobotDescription& robot) {
   }
 }
 
+/// Four digits: enough to judge by, as scenarios get all of them.
+std::string ShortNumber(const std::string& text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size() ? fmt::format("{:.4g}", value)
+                                                                  : text;
+}
+
+void PrintDefaults(const core::RobotDescription& robot) {
+  fmt::print("{:56} {:>10} {:>10}\n", "default of scenarios", "of go2", "of robot");
+  for (const DerivedDefault& value : DerivedDefaults(robot.similarity))
+    fmt::print("{:56} {:>10} {:>10}\n", value.key, ShortNumber(value.of_go2),
+               ShortNumber(value.of_robot));
+}
+
 /// By the defaults of a scenario.
 void PrintVerdict(const core::RobotDescription& robot) {
   const std::vector<WalkFinding> findings =
@@ -112,13 +131,16 @@ void PrintVerdict(const core::RobotDescription& robot) {
 
 void AddInfo(CLI::App& app) {
   auto file = std::make_shared<std::string>();
+  auto defaults = std::make_shared<bool>(false);
   CLI::App* info =
       app.add_subcommand("info", "print what a robot's files say, and what looks wrong");
   info->add_option("robot", *file, "robot YAML")->required();
-  info->callback([file] {
+  info->add_flag("--defaults", *defaults, "list the defaults that go with the robot's size");
+  info->callback([file, defaults] {
     const core::RobotDescription robot = ReadScaledRobot(LoadKind("robot", *file, {}));
     PrintRobot(robot);
     PrintShapes(robot);
+    if (*defaults) PrintDefaults(robot);
     std::vector<std::string> warnings = core::FindSuspicions(robot);
     for (std::string& warning : core::FindModelWarnings(robot))
       warnings.push_back(std::move(warning));

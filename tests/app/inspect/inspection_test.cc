@@ -38,6 +38,18 @@ TEST(Info, PrintsTheRobotAndItsWarnings) {
       << Shell("info robots/none.yaml");
 }
 
+TEST(Info, ListsTheDefaultsThatGoWithTheSize) {
+  const std::string mule = Shell("info --defaults tests/data/robots/mule/mule.yaml");
+  const double mass = 29.45 / 15.019, f_max_N = 250.0 * mass;
+  EXPECT_NE(
+      mule.find(fmt::format("{:56} {:>10} {:>10.4g}\n", "controller.mpc.f_max_N", 250, f_max_N)),
+      std::string::npos)
+      << mule;
+  EXPECT_NE(mule.find("\noperator.look_ahead_m "), std::string::npos) << mule;
+  const std::string go2 = Shell("info --defaults robots/go2/go2.yaml");
+  EXPECT_EQ(go2.find("controller."), std::string::npos) << go2;
+}
+
 /// A robot YAML beside a changed copy of the Go2's URDF.
 std::filesystem::path ChangedGo2(const test::TemporaryFolder& folder, const std::string& from,
                                  const std::string& to) {
