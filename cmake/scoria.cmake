@@ -10,7 +10,7 @@ if(NOT CMAKE_BUILD_TYPE)
 endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
 if(SCORIA_SANITIZE)
-  set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g1")  # the tests walk, so they must be quick enough
+  set(CMAKE_CXX_FLAGS_DEBUG "-O1 -gline-tables-only")  # the tests walk, so they must be quick enough
 else()
   set(CMAKE_CXX_FLAGS_DEBUG "-O0 -g")
 endif()

@@ -25,8 +25,8 @@ double Share(std::uint64_t part, std::uint64_t whole) {
 
 /// The bin of a number in the middle of which lies 0; NaN goes to the first.
 std::size_t CentredBin(double bins_from_zero) {
-  constexpr double kMiddle = static_cast<double>(Evidence::kBins / 2);
-  const double bin = std::floor(bins_from_zero) + kMiddle;
+  constexpr std::size_t kMiddle = Evidence::kBins / 2;
+  const double bin = std::floor(bins_from_zero) + static_cast<double>(kMiddle);
   if (!(bin > 0.0)) return 0;
   return static_cast<std::size_t>(std::min(bin, static_cast<double>(Evidence::kBins - 1)));
 }

@@ -58,7 +58,7 @@ Metrics AllMetrics() {
   for (const auto family :
        {SafetyMetrics, TransportMetrics, TrackingMetrics, EstimationFamilyMetrics,
         ContactFamilyMetrics, ModelFamilyMetrics, EnergyMetrics, TimingMetrics}) {
-    for (Metric& metric : family()) all.push_back(std::move(metric));
+    for (const Metric& metric : family()) all.push_back(metric);
   }
   all.push_back(FallbackShareMetric());
   return all;

@@ -36,7 +36,7 @@ fs::path WriteReport(const fs::path& folder, const std::optional<ReportPicture>&
   const core::FolderLock lock(out);
   core::CreateFolders(figures);
   const Document document = DrawFigures(ComposeReport(input), figures);
-  const fs::path page = out / "report.html";
+  fs::path page = out / "report.html";
   core::WriteText(page, ToHtml(document));
   core::WriteText(out / "report.txt", ToPlainText(document));
   WriteMetricFiles(input, out);

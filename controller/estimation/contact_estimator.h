@@ -18,7 +18,7 @@
 
 namespace scoria::controller {
 
-/// Whose word on contact counts. Hierarchy: per foot, the sensor while it is healthy, else the
+/// Where contacts come from. Hierarchy: per foot, the sensor while it is healthy, else the
 /// observer.
 enum class ContactChoice { kHierarchy, kSensor, kMomentumObserver, kGaitPhase, kTruth };
 constexpr std::array<std::pair<ContactChoice, std::string_view>, 5> EnumNames(ContactChoice) {
@@ -38,10 +38,10 @@ struct ContactParams {
   HealthParams health;
   template <class Archive>
   void Serialize(Archive& a) {
-    a.Field(
-        "source", source,
-        {.doc = "whose word counts. hierarchy: the foot sensor while healthy, else the momentum "
-                "observer; sensor: that, healthy or not, or the observer on a robot without"});
+    a.Field("source", source,
+            {.doc = "where contacts come from. hierarchy: the foot sensor while healthy, else the "
+                    "momentum "
+                    "observer; sensor: that, healthy or not, or the observer on a robot without"});
     a.Field("touchdown_delay_s", touchdown_delay_s,
             {.min = 0.0,
              .max = 0.5,
@@ -77,7 +77,7 @@ class ContactEstimator {
 
   [[nodiscard]] ContactEstimate Update(const ContactInput& in) noexcept;
 
-  /// Changes whose word counts, at run time; nothing that was learned is lost.
+  /// Changes where contacts come from, at run time; nothing that was learned is lost.
   void SetChoice(ContactChoice source) noexcept { params_.source = source; }
 
  private:

@@ -23,7 +23,7 @@ struct Word {
 };
 constexpr Word kWords[] = {
     {R"(\bfelt\b|\bfeels?\b|felt_)", "sense, estimate"},
-    {R"(word that count|word of the foot|ContactWord|kCounted)", "fused contact"},
+    {R"(word that count|whose word|word of the foot|ContactWord|kCounted)", "fused contact"},
     {R"(\bdoubts?\b)", "covariance scale"},
     {R"(mishap)", "stumble"},
     {R"(contradict)", "residual, disagreement"},

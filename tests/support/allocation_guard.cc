@@ -13,7 +13,7 @@ thread_local long t_count = 0;
 
 // glibc's allocator under its other names: the program's malloc family is replaced, so that nothing
 // escapes. Not under sanitizers, which replace it themselves.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifndef SCORIA_SANITIZED
 extern "C" {
 void* __libc_malloc(std::size_t);
 void* __libc_calloc(std::size_t, std::size_t);
@@ -47,7 +47,7 @@ int posix_memalign(void** out, std::size_t alignment, std::size_t size) {
 namespace scoria::test {
 
 bool AllocationGuard::IsArmed() {
-#ifdef __SANITIZE_ADDRESS__
+#ifdef SCORIA_SANITIZED
   return false;
 #else
   return true;

@@ -172,7 +172,7 @@ Metrics EstimationFamilyMetrics() {
   Metrics all;
   for (const auto part :
        {DriftMetrics, PoseErrorMetrics, StateErrorMetrics, ConsistencyMetrics, ForceMetrics}) {
-    for (Metric& metric : part()) all.push_back(std::move(metric));
+    for (const Metric& metric : part()) all.push_back(metric);
   }
   return all;
 }
