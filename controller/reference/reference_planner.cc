@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <Eigen/LU>
 
@@ -16,6 +17,8 @@ double TimeConstantOfTickGain_s(double gain) {
   return gain < 1.0 ? -kTick_s / std::log1p(-std::max(gain, 0.0)) : 0.0;
 }
 namespace {
+
+constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 
 double Towards(double from, double to, double max_step) noexcept {
   return from + std::clamp(to - from, -max_step, max_step);
@@ -75,6 +78,13 @@ void ReferencePlanner::Ramp(const Command& command, double dt_s) noexcept {
   w_z_ = Towards(w_z_, command.w_z_radps, params_.max_yaw_acceleration_radps2 * dt_s);
 }
 
+void ReferencePlanner::AdvanceDither(double dt_s) noexcept {
+  const bool rests = v_H_.isZero(0.0) && w_z_ == 0.0;
+  dither_m_ = rests ? params_.stand_dither_m : 0.0;
+  const double turned_rad = dither_rad_ + kTurn_rad * params_.stand_dither_Hz * dt_s;
+  dither_rad_ = rests ? std::fmod(turned_rad, kTurn_rad) : 0.0;
+}
+
 BodyReference ReferencePlanner::Plan(const core::WholeBody& wb, const Command& command, int horizon,
                                      double stage_s, double dt_s) noexcept {
   const double yaw = core::RpyFromRotation(wb.state.R_WB).z();
@@ -84,6 +94,7 @@ BodyReference ReferencePlanner::Plan(const core::WholeBody& wb, const Command& c
     yaw_desired_rad_ = yaw;
   }
   Ramp(command, dt_s);
+  AdvanceDither(dt_s);
   // Desired pose: integrate, then keep within reach of the measured pose.
   const double yaw_measured = core::UnwrapNear(yaw, yaw_desired_rad_);
   yaw_desired_rad_ =
@@ -109,10 +120,13 @@ BodyReference ReferencePlanner::Plan(const core::WholeBody& wb, const Command& c
     const Vec3 slope_H = R_WH.transpose() * Vec3(plane_.slope.x(), plane_.slope.y(), 0.0);
     stage.rpy_rad = {command.roll_rad + params_.tilt_share * std::atan(slope_H.y()),
                      command.pitch_rad - params_.tilt_share * std::atan(slope_H.x()), heading};
-    p_WC.z() = plane_.Height(p_WC) + height_m;
+    const double dither_radps = kTurn_rad * params_.stand_dither_Hz;
+    const double dither_rad = dither_rad_ + k * stage_s * dither_radps;
+    p_WC.z() = plane_.Height(p_WC) + height_m + dither_m_ * std::sin(dither_rad);
     stage.p_WC = p_WC;
     stage.v_WC = R_WH * Vec3(v_H_.x(), v_H_.y(), 0.0);
-    stage.v_WC.z() = plane_.slope.dot(stage.v_WC.head<2>());
+    stage.v_WC.z() =
+        plane_.slope.dot(stage.v_WC.head<2>()) + dither_m_ * dither_radps * std::cos(dither_rad);
     stage.w_WB = {0.0, 0.0, w_z_};
     p_WC.head<2>() += stage.v_WC.head<2>() * stage_s;
     heading += w_z_ * stage_s;

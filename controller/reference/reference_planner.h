@@ -18,6 +18,7 @@ struct ReferenceParams {
   double plane_slope_s = 0.095, plane_height_s = 0.0615;
   double max_acceleration_mps2 = 1.0;
   double max_yaw_acceleration_radps2 = 3.0;
+  double stand_dither_m = 0.0, stand_dither_Hz = 0.5;
   template <class Archive>
   void Serialize(Archive& a) {
     a.Field(
@@ -45,6 +46,15 @@ struct ReferenceParams {
             {.min = 0.05, .max = 20.0, .doc = "ramp of commanded speeds"});
     a.Field("max_yaw_acceleration_radps2", max_yaw_acceleration_radps2,
             {.min = 0.05, .max = 50.0, .scale = core::Pow(core::dimension::kTime, -2.0)});
+    a.Field(
+        "stand_dither_m", stand_dither_m,
+        {.min = 0.0,
+         .max = 0.1,
+         .doc = "without a command the trunk goes up and down by this, so that the joints slide "
+                "and their friction does not read as mass",
+         .scale = core::dimension::kLength});
+    a.Field("stand_dither_Hz", stand_dither_Hz,
+            {.min = 0.01, .max = 5.0, .scale = core::dimension::kRate});
   }
   bool operator==(const ReferenceParams&) const = default;
 };
@@ -76,6 +86,7 @@ class ReferencePlanner {
 
  private:
   void Ramp(const Command& command, double dt_s) noexcept;
+  void AdvanceDither(double dt_s) noexcept;
   void FitPlane(const Vec3& p_WB, double slope_share, double height_share) noexcept;
 
   ReferenceParams params_;
@@ -87,6 +98,8 @@ class ReferencePlanner {
   double yaw_desired_rad_ = 0.0;
   Vec2 v_H_ = Vec2::Zero();
   double w_z_ = 0.0;
+  double dither_rad_ = 0.0;  // 0 while the command is to move
+  double dither_m_ = 0.0;
 };
 
 }  // namespace scoria::controller

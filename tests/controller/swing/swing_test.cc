@@ -247,6 +247,23 @@ TEST(ReferencePlanner, KnownGroundGivesThePlaneAtOnce) {
   EXPECT_NEAR(reference.stages[0].p_WC.z(), reference.ground_z_m + 0.30, 1e-9);
 }
 
+TEST(ReferencePlanner, DithersWhileTheRobotRestsOnly) {
+  ReferencePlanner planner({.stand_dither_m = 0.006, .stand_dither_Hz = 0.5}, 0.30);
+  const core::WholeBody wb = Placed({0.0, 0.0, 0.3}, 0.0);
+  double least_m = 1.0, most_m = 0.0;
+  for (int i = 0; i < 400; ++i) {
+    const BodyReference reference = planner.Plan(wb, Command{}, 2, 1e-4, 0.01);
+    const BodyReference::Stage &now = reference.stages[0], &next = reference.stages[1];
+    EXPECT_NEAR(next.p_WC.z() - now.p_WC.z(), 1e-4 * now.v_WC.z(), 1e-8);
+    least_m = std::min(least_m, now.p_WC.z());
+    most_m = std::max(most_m, now.p_WC.z());
+  }
+  EXPECT_NEAR(most_m - least_m, 0.012, 1e-5);
+  const BodyReference walking = planner.Plan(wb, {.v_x_mps = 0.3}, 2, 0.05, 0.01);
+  EXPECT_NEAR(walking.stages[2].p_WC.z(), 0.30, 1e-12);
+  EXPECT_EQ(walking.stages[2].v_WC.z(), 0.0);
+}
+
 TEST(ReferencePlanner, FollowsTheGroundPlaneAndHoldsStillWhenStanding) {
   ReferencePlanner planner({}, 0.30);
   RobotState s = test::StandingState();
