@@ -7,11 +7,6 @@
 
 namespace scoria::logs::mcap_format {
 
-void ProblemList::Add(LogProblem problem) {
-  if (std::find(problems_.begin(), problems_.end(), problem) == problems_.end())
-    problems_.push_back(std::move(problem));
-}
-
 McapCursor::McapCursor(const McapView& view, LogFilter filter)
     : view_(view),
       filter_(std::move(filter)),
@@ -29,24 +24,26 @@ McapCursor::McapCursor(const McapView& view, LogFilter filter)
 }
 
 std::optional<LogMessage> McapCursor::Next() {
-  if (delivered_) AdvanceFront();
-  delivered_ = false;
-  while (next_block_ < blocks_.size() &&
-         (open_.empty() ||
-          (by_time_ && blocks_[next_block_]->span.first_ns <= open_.front()->time_ns()))) {
-    OpenBlockOf(*blocks_[next_block_++]);
+  for (;;) {
+    if (delivered_) AdvanceFront();
+    delivered_ = false;
+    while (next_block_ < blocks_.size() &&
+           (open_.empty() ||
+            (by_time_ && blocks_[next_block_]->span.first_ns <= open_.front()->time_ns()))) {
+      OpenBlockOf(*blocks_[next_block_++]);
+    }
+    if (open_.empty()) return std::nullopt;
+    const OpenBlock& front = *open_.front();
+    const MessageRecord message = ParseMessage(front.places[front.next].body);
+    const std::size_t index = view_.channel_indexes.at(message.channel_id);
+    const LogChannel& channel = view_.contents.channels[index];
+    delivered_ = true;
+    if (const auto data = unpacker_.Unpack(message.data))
+      return LogMessage{
+          index, channel, message.log_time_ns, message.publish_time_ns, message.sequence, *data};
+    Report(LogProblem::Kind::kLost,
+           fmt::format("messages of {} are lost: they do not decompress", channel.topic));
   }
-  if (open_.empty()) return std::nullopt;
-  const OpenBlock& front = *open_.front();
-  const MessageRecord message = ParseMessage(front.places[front.next].body);
-  const std::size_t channel = view_.channel_indexes.at(message.channel_id);
-  delivered_ = true;
-  return LogMessage{channel,
-                    view_.contents.channels[channel],
-                    message.log_time_ns,
-                    message.publish_time_ns,
-                    message.sequence,
-                    message.data};
 }
 
 bool McapCursor::IsLater(const std::unique_ptr<OpenBlock>& a, const std::unique_ptr<OpenBlock>& b) {

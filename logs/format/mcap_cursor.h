@@ -6,18 +6,10 @@
 #include <vector>
 
 #include "logs/format/mcap_index.h"
+#include "logs/format/problem_list.h"
+#include "logs/format/zstd_frames.h"
 
 namespace scoria::logs::mcap_format {
-
-/// Collects what is wrong with a log, each thing once.
-class ProblemList {
- public:
-  void Add(LogProblem problem);
-  [[nodiscard]] const std::vector<LogProblem>& problems() const { return problems_; }
-
- private:
-  std::vector<LogProblem> problems_;
-};
 
 /// What a cursor reads from; all borrowed.
 struct McapView {
@@ -66,6 +58,7 @@ class McapCursor final : public LogCursor {
   std::size_t next_block_ = 0;
   std::vector<std::unique_ptr<OpenBlock>> open_;  // a heap; the front comes next
   bool delivered_ = false;                        // the front's message
+  MessageUnpacker unpacker_;
 };
 
 }  // namespace scoria::logs::mcap_format

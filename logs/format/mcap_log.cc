@@ -38,8 +38,9 @@ void Include(std::optional<LogSpan>& span, const LogSpan& other) {
 
 class McapLog final : public LogSource {
  public:
-  explicit McapLog(const std::filesystem::path& path) : file_(path), index_(ReadIndex(file_)) {
-    contents_.path = path;
+  explicit McapLog(const LogFile& file) : file_(file.path, file.shown), index_(ReadIndex(file_)) {
+    contents_.path = file.shown;
+    for (const LogProblem& problem : file.problems) problems_.Add(problem);
     contents_.format = "an MCAP log";
     if (!StartsWithMagic(file_.Read(0, kMagic.size())))
       Report(LogProblem::Kind::kOdd, "its first bytes are damaged");
@@ -141,8 +142,6 @@ bool IsMcap(std::span<const std::byte> first, std::span<const std::byte> last) {
   return StartsWithMagic(first) || EndsWithMagic(last);
 }
 
-std::unique_ptr<LogSource> OpenMcap(const std::filesystem::path& path) {
-  return std::make_unique<McapLog>(path);
-}
+std::unique_ptr<LogSource> OpenMcap(const LogFile& file) { return std::make_unique<McapLog>(file); }
 
 }  // namespace scoria::logs

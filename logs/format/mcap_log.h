@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <span>
 
+#include "logs/format/log_file.h"
 #include "logs/format/log_source.h"
 
 namespace scoria::logs {
@@ -16,6 +16,6 @@ namespace scoria::logs {
 /// summary and indexes, also one that ends in the middle. With a filter it reads only the chunks
 /// that hold what is wanted. Source: [MCAP] specification, version 0.
 /// Errors: core::FileError.
-[[nodiscard]] std::unique_ptr<LogSource> OpenMcap(const std::filesystem::path& path);
+[[nodiscard]] std::unique_ptr<LogSource> OpenMcap(const LogFile& file);
 
 }  // namespace scoria::logs

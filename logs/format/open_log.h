@@ -8,7 +8,9 @@
 
 namespace scoria::logs {
 
-/// Opens a log of any format that scoria reads, chosen by its content, never by its name.
+/// Opens a log of any format that scoria reads, chosen by its content, never by its name: an MCAP
+/// file, one file of a rosbag2 bag, each also packed by zstd; or a whole bag, by its folder or the
+/// metadata.yaml in it.
 /// Errors: std::runtime_error that names the file and says what it is if it is no such log;
 /// core::FileError if it cannot be read.
 [[nodiscard]] std::unique_ptr<LogSource> OpenLog(const std::filesystem::path& path);

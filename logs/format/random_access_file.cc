@@ -12,13 +12,13 @@
 
 namespace scoria::logs {
 
-RandomAccessFile::RandomAccessFile(std::filesystem::path path)
-    : path_(std::move(path)), file_(open(path_.c_str(), O_RDONLY | O_CLOEXEC)) {
-  if (file_ < 0) throw core::FileError(path_, "cannot read the file", errno);
+RandomAccessFile::RandomAccessFile(const std::filesystem::path& path, std::filesystem::path shown)
+    : shown_(std::move(shown)), file_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+  if (file_ < 0) throw core::FileError(shown_, "cannot read the file", errno);
   struct stat status {};
   if (fstat(file_, &status) != 0 || !S_ISREG(status.st_mode)) {
     close(file_);
-    throw core::FileError(path_, "is not a regular file", 0);
+    throw core::FileError(shown_, "is not a regular file", 0);
   }
   size_ = static_cast<std::uint64_t>(status.st_size);
 }
@@ -32,7 +32,7 @@ Bytes RandomAccessFile::Read(std::uint64_t offset, std::uint64_t size) const {
     const ssize_t n =
         pread(file_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) throw core::FileError(path_, "cannot read the file", errno);
+    if (n < 0) throw core::FileError(shown_, "cannot read the file", errno);
     if (n == 0) break;  // it was cut while it was open
     done += static_cast<std::size_t>(n);
   }

@@ -13,12 +13,14 @@ namespace scoria::logs {
 class RandomAccessFile {
  public:
   /// Errors, here and below: core::FileError.
-  explicit RandomAccessFile(std::filesystem::path path);
+  explicit RandomAccessFile(const std::filesystem::path& path) : RandomAccessFile(path, path) {}
+  /// `shown` stands for the file in messages.
+  RandomAccessFile(const std::filesystem::path& path, std::filesystem::path shown);
   ~RandomAccessFile();
   RandomAccessFile(const RandomAccessFile&) = delete;
   RandomAccessFile& operator=(const RandomAccessFile&) = delete;
 
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] const std::filesystem::path& path() const { return shown_; }
   [[nodiscard]] std::uint64_t size() const { return size_; }
   [[nodiscard]] std::uint64_t Rest(std::uint64_t offset) const {
     return offset < size_ ? size_ - offset : 0;
@@ -28,7 +30,7 @@ class RandomAccessFile {
   [[nodiscard]] Bytes Read(std::uint64_t offset, std::uint64_t size) const;
 
  private:
-  std::filesystem::path path_;
+  std::filesystem::path shown_;
   int file_ = -1;
   std::uint64_t size_ = 0;
 };
