@@ -42,6 +42,44 @@ std::optional<LogSpan> SpanOf(const ConfigNode& bag) {
   return LogSpan{*start_ns, last_ns};
 }
 
+std::string TextOf(const ConfigNode* node) { return node == nullptr ? "" : node->scalar; }
+
+void AddTopic(const ConfigNode& node, BagMetadata& metadata) {
+  const ConfigNode* about = node.Find("topic_metadata");
+  const ConfigNode* name = Find(about, "name");
+  const auto count = CountOf(node.Find("message_count"));
+  if (name == nullptr || !count) return;
+  BagTopic& topic = metadata.topics[name->scalar];
+  topic.message_count += *count;
+  topic.type_name = TextOf(Find(about, "type"));
+  topic.message_encoding = TextOf(Find(about, "serialization_format"));
+}
+
+/// What the files have of the topics, of channels on one topic the last.
+std::map<std::string, BagTopic> TopicsOf(const LogContents& contents) {
+  std::map<std::string, BagTopic> topics;
+  for (const LogChannel& channel : contents.channels) {
+    BagTopic& topic = topics[channel.topic];
+    topic.message_count += channel.message_count.value_or(0);
+    topic.type_name = channel.type_name;
+    topic.message_encoding = channel.message_encoding;
+  }
+  return topics;
+}
+
+/// In what a topic is other than said; MCAP files lack topics without messages.
+std::string DifferenceOf(const BagTopic& said, const std::optional<BagTopic>& there) {
+  const BagTopic present = there.value_or(BagTopic{});
+  std::vector<std::string> parts;
+  if (present.message_count != said.message_count)
+    parts.push_back(fmt::format("{}, not {}", present.message_count, said.message_count));
+  for (const auto& [is, was] : {std::pair(present.type_name, said.type_name),
+                                std::pair(present.message_encoding, said.message_encoding)}) {
+    if (there && !was.empty() && is != was) parts.push_back(fmt::format("{}, not {}", is, was));
+  }
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
 }  // namespace
 
 BagMetadata ReadBagMetadata(const std::filesystem::path& file) {
@@ -55,11 +93,7 @@ BagMetadata ReadBagMetadata(const std::filesystem::path& file) {
   metadata.message_count = CountOf(bag->Find("message_count"));
   if (metadata.message_count.value_or(0) > 0) metadata.span = SpanOf(*bag);
   if (const ConfigNode* topics = bag->Find("topics_with_message_count")) {
-    for (const ConfigNode& topic : topics->items) {
-      const ConfigNode* name = Find(topic.Find("topic_metadata"), "name");
-      const auto count = CountOf(topic.Find("message_count"));
-      if (name != nullptr && count) metadata.topic_counts[name->scalar] += *count;
-    }
+    for (const ConfigNode& topic : topics->items) AddTopic(topic, metadata);
   }
   return metadata;
 }
@@ -67,25 +101,26 @@ BagMetadata ReadBagMetadata(const std::filesystem::path& file) {
 std::vector<std::string> CompareMetadata(const BagMetadata& metadata, const LogContents& contents) {
   constexpr double kS = 1e-9;
   std::vector<std::string> differences;
-  std::map<std::string, std::uint64_t> counts;
+  const bool all_counted =
+      std::all_of(contents.channels.begin(), contents.channels.end(),
+                  [](const LogChannel& channel) { return channel.message_count.has_value(); });
+  if (!all_counted) return differences;  // they are not known without reading everything
+  const std::map<std::string, BagTopic> present = TopicsOf(contents);
   std::uint64_t total = 0;
-  for (const LogChannel& channel : contents.channels) {
-    if (!channel.message_count) return differences;  // not known without reading everything
-    counts[channel.topic] += *channel.message_count;
-    total += *channel.message_count;
-  }
+  for (const auto& [name, topic] : present) total += topic.message_count;
   if (metadata.message_count && *metadata.message_count != total)
     differences.push_back(
         fmt::format("counts {} messages, the files have {}", *metadata.message_count, total));
   std::vector<std::string> topics;
-  for (const auto& [topic, count] : metadata.topic_counts) {
-    const auto found = counts.find(topic);
-    const std::uint64_t present = found == counts.end() ? 0 : found->second;
-    if (present != count) topics.push_back(fmt::format("{} ({}, not {})", topic, present, count));
+  for (const auto& [name, said] : metadata.topics) {
+    const auto found = present.find(name);
+    const std::string difference =
+        DifferenceOf(said, found == present.end() ? std::nullopt : std::optional(found->second));
+    if (!difference.empty()) topics.push_back(fmt::format("{} ({})", name, difference));
   }
-  for (const auto& [topic, count] : counts) {
-    if (!metadata.topic_counts.empty() && !metadata.topic_counts.contains(topic))
-      topics.push_back(fmt::format("{} (it has none of that name)", topic));
+  for (const auto& [name, topic] : present) {
+    if (!metadata.topics.empty() && !metadata.topics.contains(name))
+      topics.push_back(fmt::format("{} (it has none of that name)", name));
   }
   if (!topics.empty())
     differences.push_back(fmt::format("is wrong about {}", fmt::join(topics, ", ")));

@@ -14,13 +14,20 @@ namespace scoria::logs {
 
 inline constexpr const char* kBagMetadata = "metadata.yaml";
 
+/// What metadata.yaml says of a topic.
+struct BagTopic {
+  std::uint64_t message_count = 0;
+  std::string type_name, message_encoding;  // empty: not said
+  bool operator==(const BagTopic&) const = default;
+};
+
 /// What rosbag2's metadata.yaml says of a bag: a hint, since it is written at the end of a
 /// recording, by many versions and by hand. What a version has not, or has in another form, is
 /// absent.
 struct BagMetadata {
   std::vector<std::string> files;  // as written, with or without the bag's folder before them
   std::optional<std::uint64_t> message_count;
-  std::map<std::string, std::uint64_t> topic_counts;
+  std::map<std::string, BagTopic> topics;
   std::optional<LogSpan> span;
 };
 

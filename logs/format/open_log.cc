@@ -56,8 +56,9 @@ std::unique_ptr<LogSource> OpenUnpacked(const fs::path& path) {
   const TemporaryFolder folder;
   const fs::path unpacked = folder.path() / "unpacked";
   std::vector<LogProblem> problems;
-  if (std::string problem = UnpackZstd(RandomAccessFile(path), unpacked); !problem.empty())
-    problems.push_back({LogProblem::Kind::kCut, path, std::move(problem)});
+  const RandomAccessFile packed(path);
+  std::string problem = UnpackZstd(packed, unpacked, LargestUnpackedLog(packed.size()));
+  if (!problem.empty()) problems.push_back({LogProblem::Kind::kCut, path, std::move(problem)});
   const LogFile file(path, unpacked, std::move(problems));
   const Ends ends(unpacked);
   if (std::unique_ptr<LogSource> log = OpenContent(file, ends)) return log;

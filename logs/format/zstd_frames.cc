@@ -14,28 +14,25 @@
 namespace scoria::logs {
 namespace {
 
-/// What no log reaches by far: sensor data pack to a half or a tenth.
-std::uint64_t LargestContent(std::uint64_t packed_size) {
-  constexpr std::uint64_t kAlways = std::uint64_t{1} << 30, kRatio = 200;
-  return std::max(kAlways, kRatio * packed_size);
-}
-
 /// Where unpacked bytes go.
 class Output {
  public:
-  Output(const RandomAccessFile& packed, std::filesystem::path path)
-      : packed_(packed), path_(std::move(path)), file_(path_, std::ios::binary) {
+  Output(const RandomAccessFile& packed, std::filesystem::path path, std::uint64_t most)
+      : packed_(packed), path_(std::move(path)), most_(most), file_(path_, std::ios::binary) {
     Check();
   }
   [[nodiscard]] std::uint64_t written() const { return written_; }
   void Write(std::span<const std::byte> bytes) {
     written_ += bytes.size();
-    if (const std::uint64_t most = LargestContent(packed_.size()); written_ > most)
-      throw std::runtime_error(fmt::format("{}: {} bytes unpack to more than {}: this is no log",
-                                           packed_.path().string(), packed_.size(), most));
+    DemandAtMost(written_);
     file_.write(reinterpret_cast<const char*>(bytes.data()),
                 static_cast<std::streamsize>(bytes.size()));
     Check();
+  }
+  void DemandAtMost(std::uint64_t bytes) const {
+    if (bytes > most_)
+      throw std::runtime_error(fmt::format("{}: {} bytes unpack to more than {}: this is no log",
+                                           packed_.path().string(), packed_.size(), most_));
   }
   void Close() {
     file_.close();
@@ -48,6 +45,7 @@ class Output {
   }
   const RandomAccessFile& packed_;
   std::filesystem::path path_;
+  std::uint64_t most_;
   std::ofstream file_;
   std::uint64_t written_ = 0;
 };
@@ -60,10 +58,20 @@ bool IsZstd(std::span<const std::byte> bytes) {
          std::ranges::equal(bytes.first(sizeof kMagic), std::as_bytes(std::span(kMagic)));
 }
 
-std::string UnpackZstd(const RandomAccessFile& packed, const std::filesystem::path& out) {
+std::uint64_t LargestUnpackedLog(std::uint64_t packed_size) {
+  constexpr std::uint64_t kAlways = std::uint64_t{1} << 30, kRatio = 200;
+  return std::max(kAlways, kRatio * packed_size);
+}
+
+std::string UnpackZstd(const RandomAccessFile& packed, const std::filesystem::path& out,
+                       std::uint64_t most) {
   const std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> context(ZSTD_createDCtx(),
                                                                      &ZSTD_freeDCtx);
-  Output output(packed, out);
+  Output output(packed, out, most);
+  const Bytes head = packed.Read(0, ZSTD_DStreamInSize());
+  const unsigned long long claimed = ZSTD_getFrameContentSize(head.data(), head.size());
+  if (claimed != ZSTD_CONTENTSIZE_UNKNOWN && claimed != ZSTD_CONTENTSIZE_ERROR)
+    output.DemandAtMost(claimed);
   Bytes piece(ZSTD_DStreamOutSize());
   std::size_t left = 0;  // of the frame at hand
   for (std::uint64_t at = 0; at < packed.size();) {

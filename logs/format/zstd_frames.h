@@ -19,12 +19,15 @@ namespace scoria::logs {
 /// Whether bytes begin as a zstd frame does.
 [[nodiscard]] bool IsZstd(std::span<const std::byte> bytes);
 
+/// How much a packed log may unpack to: no log comes near. Sensor data pack to a half or a tenth.
+[[nodiscard]] std::uint64_t LargestUnpackedLog(std::uint64_t packed_size);
+
 /// Unpacks a file of zstd frames, with or without a content size, into another file, piece by
 /// piece. @returns what is wrong, empty if nothing; what could be unpacked before that is there.
-/// Errors: core::FileError if the operating system refuses; std::runtime_error if the content is
-/// so much larger than the file (200 times, and more than 1 GiB) that it is no log.
+/// Errors: core::FileError if the operating system refuses; std::runtime_error if there is more
+/// than `most` bytes.
 [[nodiscard]] std::string UnpackZstd(const RandomAccessFile& packed,
-                                     const std::filesystem::path& out);
+                                     const std::filesystem::path& out, std::uint64_t most);
 
 /// Unpacks messages one after the other.
 class MessageUnpacker {

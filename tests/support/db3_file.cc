@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/support/db3_file.h"
 
-#include <initializer_list>
+#include <algorithm>
 #include <stdexcept>
 
 #include <sqlite3.h>
@@ -104,6 +104,25 @@ std::string Zstd(const std::string& content, bool says_size) {
       ZSTD_compress2(context, packed.data(), packed.size(), content.data(), content.size()));
   ZSTD_freeCCtx(context);
   return packed;
+}
+
+/// Blocks of one byte repeated. Source: [Collet2021] sections 3.1.1.1 and 3.1.1.2.
+std::string ZstdBomb(std::uint64_t bytes, bool says_size) {
+  constexpr std::uint64_t kBlock = 128 << 10;
+  constexpr char kSizeOf8Bytes = '\xC0', kWindowOf128KiB = 7 << 3;
+  std::string frame("\x28\xB5\x2F\xFD", 4);
+  frame += says_size ? kSizeOf8Bytes : '\0';
+  frame += kWindowOf128KiB;
+  for (int i = 0; i < 8 && says_size; ++i) frame += static_cast<char>(bytes >> (8 * i));
+  for (std::uint64_t done = 0; done < bytes; done += kBlock) {
+    const std::uint64_t size = std::min(kBlock, bytes - done);
+    const bool is_last = done + size == bytes;
+    constexpr std::uint64_t kRepeated = 1;
+    const std::uint64_t header = size << 3 | kRepeated << 1 | (is_last ? 1 : 0);
+    for (int i = 0; i < 3; ++i) frame += static_cast<char>(header >> (8 * i));
+    frame += '\0';
+  }
+  return frame;
 }
 
 }  // namespace scoria::test

@@ -46,4 +46,7 @@ void RunSql(const std::filesystem::path& path, const std::string& sql);
 /// A zstd frame; as a stream's it does not say how large its content is.
 [[nodiscard]] std::string Zstd(const std::string& content, bool says_size);
 
+/// A frame of a few kB that stands for that many bytes, which it says or not.
+[[nodiscard]] std::string ZstdBomb(std::uint64_t bytes, bool says_size);
+
 }  // namespace scoria::test

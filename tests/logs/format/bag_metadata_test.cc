@@ -60,7 +60,7 @@ TEST(BagMetadata, EveryVersionSaysTheSame) {
     const std::string folder = version == 2 ? "walk/" : "";
     EXPECT_EQ(metadata.files, (Lines{folder + "walk_0.db3", folder + "walk_1.db3"}));
     EXPECT_EQ(metadata.message_count, 12u);
-    EXPECT_EQ(metadata.topic_counts, (std::map<std::string, std::uint64_t>{{"/a", 12}}));
+    EXPECT_EQ(metadata.topics, (std::map<std::string, BagTopic>{{"/a", {12, "pkg/msg/A", "cdr"}}}));
     EXPECT_EQ(metadata.span, (LogSpan{10, 100}));
   }
 }
@@ -72,7 +72,7 @@ TEST(BagMetadata, WhatIsNotThereOrInAnotherFormIsAbsent) {
   EXPECT_TRUE(metadata.files.empty());
   EXPECT_FALSE(metadata.message_count);
   EXPECT_FALSE(metadata.span);
-  EXPECT_TRUE(metadata.topic_counts.empty());
+  EXPECT_TRUE(metadata.topics.empty());
   EXPECT_FALSE(Parse("rosbag2_bagfile_information: {message_count: 0, duration: {nanoseconds: 0}, "
                      "starting_time: {nanoseconds_since_epoch: 9223372036854775807}}")
                    .span)
@@ -97,14 +97,21 @@ TEST(BagMetadata, DifferencesFromTheFilesAreSentences) {
   a.message_count = 5;
   b.topic = "/b";
   b.message_count = 2;
+  b.type_name = "pkg/msg/B";
+  b.message_encoding = "cdr";
   contents.channels = {a, b};
   BagMetadata metadata;
   EXPECT_EQ(CompareMetadata(metadata, contents), Lines{}) << "what it does not say is not wrong";
   metadata.message_count = 7;
-  metadata.topic_counts = {{"/a", 5}, {"/b", 2}};
+  metadata.topics = {{"/a", {5, "", ""}}, {"/b", {2, "pkg/msg/B", "cdr"}}};
   metadata.span = contents.span;
   EXPECT_EQ(CompareMetadata(metadata, contents), Lines{});
-  metadata = {{}, 9, {{"/a", 6}, {"/c", 3}, {"/empty", 0}}, LogSpan{1'000'000'000, 4'000'000'000}};
+  metadata.topics["/b"] = {1, "pkg/B", "wrong_format"};
+  EXPECT_EQ(CompareMetadata(metadata, contents),
+            Lines{"is wrong about /b (2, not 1; pkg/msg/B, not pkg/B; cdr, not wrong_format)"});
+  metadata.topics = {{"/a", {6, "", ""}}, {"/c", {3, "A", "cdr"}}, {"/empty", {0, "A", "cdr"}}};
+  metadata.message_count = 9;
+  metadata.span = LogSpan{1'000'000'000, 4'000'000'000};
   EXPECT_EQ(CompareMetadata(metadata, contents),
             (Lines{"counts 9 messages, the files have 7",
                    "is wrong about /a (5, not 6), /c (0, not 3), /b (it has none of that name)",

@@ -171,7 +171,7 @@ TEST_F(Db3LogTest, MessagesThatGrowWithoutBoundAreRefused) {
   {
     Db3File file(path_, Db3Era::kQos);
     file.AddTopic(1, "/a", "A");
-    file.AddMessage(1, 1, test::Zstd(std::string(std::size_t{300} << 20, '\0'), false));
+    file.AddMessage(1, 1, test::ZstdBomb(std::uint64_t{300} << 20, false));
     file.AddMessage(1, 2, "x");
   }
   const std::unique_ptr<LogSource> log = OpenLog(path_);

@@ -76,6 +76,19 @@ TEST_F(Rosbag2Reference, EveryFileHasItsTopicsCountsAndSpans) {
   }
 }
 
+/// In two bags metadata.yaml has the times of the last file alone, in one another serialisation
+/// than the database.
+const std::map<fs::path, std::string> kOdd = {
+    {"ros2_rosbag2/rosbag2_py/test/resources/mcap/wbag",
+     "metadata.yaml: has other times: it begins +0.000 s and ends +0.000 s from the files' "
+     "messages"},
+    {"ros2_rosbag2/rosbag2_py/test/resources/sqlite3/wbag",
+     "metadata.yaml: has other times: it begins +0.000 s and ends +0.000 s from the files' "
+     "messages"},
+    {"ros2_rosbag2/rosbag2_tests/resources/sqlite3/wrong_rmw_test",
+     "metadata.yaml: is wrong about /array_topic (cdr, not wrong_format), /test_topic (cdr, not "
+     "wrong_format)"}};
+
 /// All files of a folder together, with or without its metadata.yaml.
 TEST_F(Rosbag2Reference, EveryBagHasWhatItsFilesHave) {
   std::map<fs::path, std::map<std::string, std::uint64_t>> bags;
@@ -98,8 +111,8 @@ TEST_F(Rosbag2Reference, EveryBagHasWhatItsFilesHave) {
     });
     for (const auto& [topic, count] : counts) EXPECT_EQ(read[topic], count) << topic;
     EXPECT_FALSE(LosesData(log->problems())) << ProblemText(log->problems());
-    // That bag's metadata.yaml has the times of its last file alone.
-    EXPECT_EQ(!log->problems().empty(), bag.filename() == "wbag") << ProblemText(log->problems());
+    const bool is_odd = kOdd.contains(bag);
+    EXPECT_EQ(ProblemsOf(*log), is_odd ? Lines{kOdd.at(bag)} : Lines{});
     ++opened;
   }
   EXPECT_GE(opened, 20);

@@ -8,7 +8,6 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <sqlite3.h>
 
 #include "logs/format/open_log.h"
 #include "logs/ros/field_reader.h"
@@ -34,71 +33,16 @@ struct Topic {
 };
 using Topics = std::map<std::string, Topic>;
 
-/// The rows of a query, columns as text or bytes.
-std::vector<std::vector<std::string>> Query(sqlite3* db, const std::string& sql) {
-  std::vector<std::vector<std::string>> rows;
-  sqlite3_stmt* statement = nullptr;
-  if (sqlite3_prepare_v2(db, sql.c_str(), -1, &statement, nullptr) != SQLITE_OK) return rows;
-  while (sqlite3_step(statement) == SQLITE_ROW) {
-    std::vector<std::string> row;
-    for (int i = 0; i < sqlite3_column_count(statement); ++i) {
-      const void* data = sqlite3_column_blob(statement, i);
-      row.emplace_back(static_cast<const char*>(data == nullptr ? "" : data),
-                       static_cast<std::size_t>(sqlite3_column_bytes(statement, i)));
-    }
-    rows.push_back(row);
-  }
-  sqlite3_finalize(statement);
-  return rows;
-}
-
-/// All of a small bag, read from a copy so that a -wal counts and nothing is written.
-Topics ReadDb3(const fs::path& file) {
-  const fs::path copy = fs::temp_directory_path() / fs::path("scoria_bags_test.db3");
-  for (const char* suffix : {"", "-wal"}) {
-    fs::remove(copy.string() + suffix);
-    const fs::path from = file.string() + suffix;
-    if (!fs::exists(from)) continue;
-    fs::copy_file(from, copy.string() + suffix);
-    fs::permissions(copy.string() + suffix, fs::perms::owner_write, fs::perm_options::add);
-  }
-  sqlite3* db = nullptr;
-  EXPECT_EQ(sqlite3_open(copy.c_str(), &db), SQLITE_OK);
-  Topics topics;
-  std::map<std::string, ChannelSchema> definitions;
-  for (const auto& row :
-       Query(db,
-             "select topic_type, encoding, encoded_message_definition from message_definitions")) {
-    definitions[row[0]] = {row[0], "cdr", row[1], row[2]};
-  }
-  for (const auto& row : Query(db, "select id, name, type, serialization_format from topics")) {
-    Topic& topic = topics[row[1]];
-    topic.schema = definitions.contains(row[2]) ? definitions.at(row[2]) : ChannelSchema{};
-    topic.schema.type_name = row[2];
-    topic.schema.message_encoding = row[3];
-    for (const auto& m : Query(db, "select data from messages where topic_id = " + row[0] +
-                                       " order by timestamp, id")) {
-      const auto* bytes = static_cast<const std::byte*>(static_cast<const void*>(m[0].data()));
-      topic.messages.emplace_back(bytes, bytes + m[0].size());
-    }
-  }
-  sqlite3_close(db);
-  return topics;
-}
-
-Topics ReadMcap(const fs::path& file) {
+/// All messages of a small bag.
+Topics ReadBag(const fs::path& file) {
   Topics topics;
   OpenLog(file)->ForEach({}, [&](const LogMessage& m) {
     Topic& topic = topics[m.channel.topic];
-    topic.schema = {m.channel.type_name, m.channel.message_encoding, m.channel.schema->encoding,
-                    m.channel.schema->text};
+    const LogSchema schema = m.channel.schema.value_or(LogSchema{});
+    topic.schema = {m.channel.type_name, m.channel.message_encoding, schema.encoding, schema.text};
     topic.messages.emplace_back(m.data.begin(), m.data.end());
   });
   return topics;
-}
-
-Topics ReadBag(const fs::path& file) {
-  return file.extension() == ".db3" ? ReadDb3(file) : ReadMcap(file);
 }
 
 void ExpectSame(const json& expected, const FieldView& view, std::size_t i,
@@ -190,7 +134,7 @@ TEST(Bags, McapOfTheReferencesTopicsEqualsThatOfAnotherWriter) {
   if (!data) GTEST_SKIP() << "SCORIA_REFERENCE_DATA is not set";
   const json expected =
       json::parse(std::ifstream(*data / "mcap/compressed/quad_zstd.expected.json"));
-  Topics topics = ReadMcap(*data / "mcap/compressed/quad_zstd.mcap");
+  Topics topics = ReadBag(*data / "mcap/compressed/quad_zstd.mcap");
   const TypeResolver resolver;
   for (const bool with_schema : {true, false}) {
     for (const json& topic : expected.at("topics")) {
@@ -213,7 +157,7 @@ TEST(Bags, ARealPositionBagIsReadWithItsHeader) {
   const auto data = ReferenceData();
   if (!data) GTEST_SKIP() << "SCORIA_REFERENCE_DATA is not set";
   const fs::path folder = *data / "logs/go2_vicon_orl/test_6_vicon_bag";
-  const Topics topics = ReadDb3(folder / "rosbag2_2025_12_05-14_46_48_0.db3");
+  const Topics topics = ReadBag(folder / "rosbag2_2025_12_05-14_46_48_0.db3");
   ASSERT_EQ(topics.size(), 1u);
   const Topic& topic = topics.begin()->second;
   const TypeChoice choice = ChoiceOf(topic, TypeResolver());
@@ -242,7 +186,7 @@ TEST(Bags, ARealPositionBagIsReadWithItsHeader) {
 TEST(Bags, AnotherSerialisationIsRefusedInWords) {
   const auto data = ReferenceData();
   if (!data) GTEST_SKIP() << "SCORIA_REFERENCE_DATA is not set";
-  const Topics topics = ReadMcap(
+  const Topics topics = ReadBag(
       *data /
       "rosbag2/ros2_rosbag2/rosbag2_tests/resources/mcap/wrong_rmw_test/wrong_rmw_test_0.mcap");
   ASSERT_EQ(topics.size(), 2u);
