@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/support/mcap_file.h"
 
+#include <lz4frame.h>
 #include <zstd.h>
 
 namespace scoria::test {
@@ -16,6 +17,17 @@ std::string Number(std::uint64_t value, int bytes) {
   std::string out;
   for (int i = 0; i < bytes; ++i) out += static_cast<char>(i < 8 ? value >> (8 * i) : 0);
   return out;
+}
+
+/// Bit by bit, with the polynomial of IEEE 802.3.
+std::uint32_t Crc32(const std::string& bytes) {
+  constexpr std::uint32_t kPolynomial = 0xEDB88320;
+  std::uint32_t crc = ~std::uint32_t{0};
+  for (const char c : bytes) {
+    crc ^= static_cast<unsigned char>(c);
+    for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ ((crc & 1) != 0 ? kPolynomial : 0);
+  }
+  return ~crc;
 }
 
 std::string McapRecord(std::uint8_t op, const std::string& body) {
@@ -57,10 +69,16 @@ McapChunk ToChunk(const std::string& records, std::uint64_t first_ns, std::uint6
   return {first_ns, last_ns, records.size(), records.size(), 0, "", records};
 }
 
-McapChunk ToPackedChunk(const std::string& records, std::uint64_t first_ns, std::uint64_t last_ns) {
-  std::string packed(ZSTD_compressBound(records.size()), '\0');
-  packed.resize(ZSTD_compress(packed.data(), packed.size(), records.data(), records.size(), 1));
-  return {first_ns, last_ns, records.size(), packed.size(), 0, "zstd", packed};
+McapChunk ToPackedChunk(const std::string& records, std::uint64_t first_ns, std::uint64_t last_ns,
+                        const std::string& compression) {
+  const bool is_zstd = compression == "zstd";
+  const std::size_t most = is_zstd ? ZSTD_compressBound(records.size())
+                                   : LZ4F_compressFrameBound(records.size(), nullptr);
+  std::string packed(most, '\0');
+  packed.resize(
+      is_zstd ? ZSTD_compress(packed.data(), most, records.data(), records.size(), 1)
+              : LZ4F_compressFrame(packed.data(), most, records.data(), records.size(), nullptr));
+  return {first_ns, last_ns, records.size(), packed.size(), 0, compression, packed};
 }
 
 std::string McapMessageIndex(int channel,

@@ -13,6 +13,9 @@ namespace scoria::test {
 /// Little endian.
 [[nodiscard]] std::string Number(std::uint64_t value, int bytes);
 
+/// As MCAP has it of a chunk's records.
+[[nodiscard]] std::uint32_t Crc32(const std::string& bytes);
+
 [[nodiscard]] std::string McapRecord(std::uint8_t op, const std::string& body);
 [[nodiscard]] std::string McapSchema(int id, const std::string& name, const std::string& encoding,
                                      const std::string& text);
@@ -32,9 +35,10 @@ struct McapChunk {
 /// Uncompressed, without checksum, as it should be.
 [[nodiscard]] McapChunk ToChunk(const std::string& records, std::uint64_t first_ns,
                                 std::uint64_t last_ns);
-/// By zstd.
+/// By zstd or lz4.
 [[nodiscard]] McapChunk ToPackedChunk(const std::string& records, std::uint64_t first_ns,
-                                      std::uint64_t last_ns);
+                                      std::uint64_t last_ns,
+                                      const std::string& compression = "zstd");
 /// (time, offset in the chunk) of each message.
 [[nodiscard]] std::string McapMessageIndex(
     int channel, const std::vector<std::pair<std::uint64_t, std::uint64_t>>& messages);

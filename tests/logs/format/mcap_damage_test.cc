@@ -82,7 +82,8 @@ TEST_F(DamagedMcapTest, CutChunkGivesItsFirstMessages) {
     inner += test::McapMessage(1, 10'000'000 * i, data);
   }
   for (const test::McapChunk& chunk :
-       {test::ToChunk(inner, 0, 190'000'000), test::ToPackedChunk(inner, 0, 190'000'000)}) {
+       {test::ToChunk(inner, 0, 190'000'000), test::ToPackedChunk(inner, 0, 190'000'000),
+        test::ToPackedChunk(inner, 0, 190'000'000, "lz4")}) {
     const std::string file = test::McapFile(chunk.ToRecord());
     const std::vector<int> steps = Read(file.substr(0, file.size() * 7 / 10));
     EXPECT_GT(steps.size(), 10u) << chunk.compression;
@@ -93,6 +94,27 @@ TEST_F(DamagedMcapTest, CutChunkGivesItsFirstMessages) {
               fmt::format("cut off at byte {}; everything before it was read, and {} messages of "
                           "the chunk there",
                           8 + 9 + 8, steps.size()));
+  }
+}
+
+TEST_F(DamagedMcapTest, GoesOnAfterABadChunkOfAnyCompression) {
+  for (const char* compression : {"zstd", "lz4"}) {
+    std::string records = test::McapChannel(1, 0, "/a", "");
+    for (std::uint64_t chunk = 0; chunk < 5; ++chunk) {
+      std::string inner;
+      for (std::uint64_t i = 10 * chunk; i < 10 * chunk + 10; ++i)
+        inner += test::McapMessage(1, 10'000'000 * i, "message " + std::to_string(i * i));
+      test::McapChunk packed = test::ToPackedChunk(inner, 100'000'000 * chunk,
+                                                   100'000'000 * chunk + 90'000'000, compression);
+      if (chunk == 1) packed.packed[packed.packed.size() / 2] ^= 0x55;
+      packed.crc = test::Crc32(inner);
+      records += packed.ToRecord();
+    }
+    const std::vector<int> steps = Read(test::McapFile(records));
+    EXPECT_EQ(steps.size(), 40u) << compression;
+    EXPECT_EQ(steps.back(), 49);
+    EXPECT_EQ(problems_.size(), 1u);
+    EXPECT_TRUE(LosesData(problems_));
   }
 }
 

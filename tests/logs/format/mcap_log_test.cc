@@ -9,6 +9,8 @@
 #include "logs/format/mcap_writer.h"
 #include "logs/format/open_log.h"
 #include "logs/messages/scoria.h"
+#include "logs/ros/type_resolver.h"
+#include "tests/support/db3_file.h"
 #include "tests/support/mcap_file.h"
 #include "tests/support/robots.h"
 
@@ -207,6 +209,61 @@ TEST_F(McapLogTest, ChannelsOnOneTopicStayApart) {
   });
   EXPECT_EQ(channels, (std::vector<std::size_t>{1, 0, 1}));
   EXPECT_EQ(log->contents().channels[1].schema->encoding, "ros2idl");
+}
+
+/// They are listed with counts and can be read; that nobody decodes them is no fault of the log.
+TEST_F(McapLogTest, ChannelsOfOtherEncodingsAreListedAndNamed) {
+  const std::string descriptor("\x0a\x00\xff", 3);
+  const std::unique_ptr<LogSource> log = Open(test::McapFile(
+      test::McapSchema(1, "pkg.A", "protobuf", descriptor) +
+      test::McapSchema(2, "B", "jsonschema", "{}") + test::McapSchema(3, "C", "flatbuffer", "") +
+      test::McapSchema(4, "pkg/msg/D", "omgidl", "struct D {};") +
+      test::McapChannel(1, 1, "/a", "protobuf") + test::McapChannel(2, 2, "/b", "json") +
+      test::McapChannel(3, 3, "/c", "flatbuffer") + test::McapChannel(4, 4, "/d", "cdr") +
+      test::McapChannel(5, 0, "/e", "json") + test::McapMessage(1, 1, "1") +
+      test::McapMessage(2, 2, "{}") + test::McapMessage(2, 3, "{}") + test::McapMessage(3, 4, "3") +
+      test::McapMessage(4, 5, "4") + test::McapMessage(5, 6, "5")));
+  EXPECT_EQ(Read(*log), (Lines{"/a 1 1", "/b 2 {}", "/b 3 {}", "/c 4 3", "/d 5 4", "/e 6 5"}));
+  EXPECT_EQ(ProblemsOf(*log), Lines{});
+  const std::vector<LogChannel>& channels = log->contents().channels;
+  EXPECT_EQ(channels.at(0).schema, (LogSchema{"protobuf", descriptor}));
+  EXPECT_EQ(channels.at(1).message_count, 2u);
+  EXPECT_EQ(channels.at(1).span, (LogSpan{2, 3}));
+  EXPECT_FALSE(channels.at(4).schema);
+  const TypeResolver resolver;
+  Lines reports;
+  for (const LogChannel& c : channels) {
+    const LogSchema schema = c.schema.value_or(LogSchema{});
+    reports.push_back(
+        resolver.Resolve({c.type_name, c.message_encoding, schema.encoding, schema.text}).Report());
+  }
+  EXPECT_EQ(reports, (Lines{"encoding \"protobuf\" is not decoded (cdr is)",
+                            "encoding \"json\" is not decoded (cdr is)",
+                            "encoding \"flatbuffer\" is not decoded (cdr is)",
+                            "schema encoding \"omgidl\" is not decoded (ros2msg and ros2idl are)",
+                            "encoding \"json\" is not decoded (cdr is)"}));
+}
+
+TEST_F(McapLogTest, EveryCompressionHoldsTheSame) {
+  const std::string inner = kDefinitions + test::McapMessage(1, 1, std::string(10000, 'x')) +
+                            test::McapMessage(2, 2, "y");
+  const Lines expected = {"/a 1 " + std::string(10000, 'x'), "/b 2 y"};
+  for (const test::McapChunk& chunk : {test::ToChunk(inner, 1, 2), test::ToPackedChunk(inner, 1, 2),
+                                       test::ToPackedChunk(inner, 1, 2, "lz4")}) {
+    const std::unique_ptr<LogSource> log = Open(test::McapFile(chunk.ToRecord()));
+    EXPECT_EQ(Read(*log), expected) << chunk.compression;
+    EXPECT_EQ(ProblemsOf(*log), Lines{});
+  }
+}
+
+TEST_F(McapLogTest, MessagesThatAreZstdFramesAreUnpacked) {
+  const std::string cut = test::Zstd(std::string(5000, 'a'), true);
+  const std::unique_ptr<LogSource> log = Open(test::McapFile(
+      kDefinitions + test::McapMessage(1, 1, test::Zstd("said", true)) +
+      test::McapMessage(1, 2, cut.substr(0, cut.size() - 3)) +
+      test::McapMessage(2, 3, test::Zstd("streamed", false)) + test::McapMessage(2, 4, "plain")));
+  EXPECT_EQ(Read(*log), (Lines{"/a 1 said", "/b 3 streamed", "/b 4 plain"}));
+  EXPECT_EQ(ProblemsOf(*log), Lines{"messages of /a are lost: they do not decompress"});
 }
 
 TEST_F(McapLogTest, UnknownSchemasAndChannelsAreNamed) {

@@ -185,6 +185,29 @@ TEST_F(McapReference, EveryCompressionAndOrderHoldsTheSame) {
   }
 }
 
+/// Cut in chunks, message indexes, the summary and the footer.
+TEST_F(McapReference, CutFilesGiveTheMoreTheLongerTheyAre) {
+  const char* temporary = "scoria_mcap_reference_cut.mcap";
+  const fs::path cut = fs::temp_directory_path() / temporary;
+  for (const fs::path& file : McapFilesIn(folder_ / "compressed")) {
+    SCOPED_TRACE(file);
+    std::ifstream in(file, std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(in)), {});
+    std::size_t last = 0;
+    for (std::size_t size = 1000; size < bytes.size(); size += bytes.size() / 97) {
+      std::ofstream(cut, std::ios::binary) << bytes.substr(0, size);
+      const std::unique_ptr<LogSource> log = OpenLog(cut);
+      std::size_t count = 0;
+      log->ForEach({}, [&](const LogMessage&) { ++count; });
+      EXPECT_GE(count, last) << size;
+      EXPECT_TRUE(count == 1246 || LosesData(log->problems())) << size;
+      last = count;
+    }
+    EXPECT_EQ(last, 1246u) << "a cut in the summary loses nothing";
+  }
+  fs::remove(cut);
+}
+
 struct Outcome {
   std::size_t messages = 0;
   std::string problems;  // or why it cannot be opened, without the folder
