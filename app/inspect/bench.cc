@@ -11,6 +11,7 @@
 
 #include "analysis/report/json_text.h"
 #include "app/episode/run_episode.h"
+#include "app/inspect/bench_logs.h"
 #include "controller/estimation/inekf.h"
 #include "controller/qp/sets/qp_bench.h"
 #include "controller/stand_up.h"
@@ -26,12 +27,12 @@ namespace {
 constexpr int kCalls = 20000, kAtOnce = 20;  // the clock is too coarse for one call
 constexpr double kPerCall_rad = 0.01;        // how fast the inputs of such calls change
 constexpr double kUsPerS = 1e6;
-constexpr int kMostRepeats = 1000;
+constexpr int kMostRepeats = 1000, kMostMegabytes = 100'000;
 
 struct Options {
-  std::string folder, scenario = "scenarios/rough.yaml";
+  std::string folder, log, scenario = "scenarios/rough.yaml";
   std::vector<std::string> set;
-  int repeats = 5;
+  int repeats = 5, megabytes = 200;
   bool json = false;
 };
 
@@ -219,6 +220,26 @@ void BenchEpisode(const Options& o) {
                100.0 * r.times[stage] / r.times.sum());
 }
 
+/// Reading of logs: one that is given, or one of each format.
+void BenchLogs(const Options& o) {
+  const std::vector<LogBenchmark> all =
+      o.log.empty() ? BenchmarkLogFormats(o.megabytes) : std::vector{BenchmarkLog(o.log, o.log)};
+  nlohmann::json json = nlohmann::json::array();
+  for (const LogBenchmark& b : all) {
+    json.push_back({{"log", b.name},
+                    {"file_bytes", b.file_bytes},
+                    {"message_bytes", b.message_bytes},
+                    {"messages", b.messages},
+                    {"open_s", b.open_s},
+                    {"read_s", b.read_s},
+                    {"MB_per_s", b.MBPerS()}});
+    if (o.json) continue;
+    fmt::print("{:24} {:.0f} MB/s of messages: {} of them, opened in {:.3f} s, read in {:.3f} s\n",
+               b.name, b.MBPerS(), b.messages, b.open_s, b.read_s);
+  }
+  if (o.json) fmt::print("{}", analysis::JsonText(json));
+}
+
 CLI::App* AddPart(CLI::App& bench, const std::string& name, const std::string& what,
                   const std::shared_ptr<Options>& o, void (*function)(const Options&)) {
   CLI::App* part = bench.add_subcommand(name, what);
@@ -242,6 +263,11 @@ void AddBench(CLI::App& app) {
   qp->add_option("folder", o->folder, "folder of .bin sets")->required();
   qp->add_option("--repeats", o->repeats, "solves per problem, of which the median counts")
       ->check(CLI::Range(1, kMostRepeats));
+  CLI::App* logs =
+      AddPart(*bench, "logs", "time the reading of a log, or of one per format", o, BenchLogs);
+  logs->add_option("log", o->log, "a log of any format; without it some are generated");
+  logs->add_option("--megabytes", o->megabytes, "size of each generated log")
+      ->check(CLI::Range(1, kMostMegabytes));
   AddScenario(AddPart(*bench, "model", "time the whole-body model", o, BenchModel), o);
   AddScenario(
       AddPart(*bench, "estimator", "time the invariant filter on four feet", o, BenchEstimator), o);

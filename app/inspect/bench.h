@@ -5,7 +5,7 @@
 
 namespace scoria::app {
 
-/// `scoria bench qp | model | physics | episode`.
+/// `scoria bench qp | model | estimator | physics | episode | logs`.
 void AddBench(CLI::App& app);
 
 }  // namespace scoria::app

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <optional>
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <lz4frame.h>
 #include <zstd.h>
 
 #include "core/files.h"
@@ -17,6 +19,27 @@ namespace {
 using namespace mcap_format;  // this file writes the format
 
 constexpr int kZstdLevel = 1;  // logs of noisy floats: higher levels cost time and gain nothing
+
+/// As MCAP spells it.
+std::string NameOf(McapCompression compression) {
+  if (compression == McapCompression::kZstd) return "zstd";
+  return compression == McapCompression::kLz4 ? "lz4" : "";
+}
+
+/// Nothing where the library fails.
+std::optional<Bytes> Pack(const Bytes& plain, McapCompression compression) {
+  if (compression == McapCompression::kNone) return plain;
+  const bool is_zstd = compression == McapCompression::kZstd;
+  Bytes packed(is_zstd ? ZSTD_compressBound(plain.size())
+                       : LZ4F_compressFrameBound(plain.size(), nullptr));
+  const std::size_t n =
+      is_zstd
+          ? ZSTD_compress(packed.data(), packed.size(), plain.data(), plain.size(), kZstdLevel)
+          : LZ4F_compressFrame(packed.data(), packed.size(), plain.data(), plain.size(), nullptr);
+  if (is_zstd ? ZSTD_isError(n) != 0 : LZ4F_isError(n) != 0) return std::nullopt;
+  packed.resize(n);
+  return packed;
+}
 
 /// What rosbag2 wants to know of a channel: reliable, keep the last message.
 const LogMetadata kChannelMetadata = {
@@ -61,8 +84,12 @@ void AppendRecord(Bytes& out, Op op, const Bytes& body) {
 
 }  // namespace
 
-McapWriter::McapWriter(const std::filesystem::path& path, std::size_t chunk_bytes)
-    : out_(path, std::ios::binary), path_(path.string()), chunk_bytes_(chunk_bytes) {
+McapWriter::McapWriter(const std::filesystem::path& path, std::size_t chunk_bytes,
+                       McapCompression compression)
+    : out_(path, std::ios::binary),
+      path_(path.string()),
+      chunk_bytes_(chunk_bytes),
+      compression_(compression) {
   if (!out_) throw core::FileError(path_, "cannot write", errno);
   Bytes bytes;
   Put(bytes).Raw(std::as_bytes(std::span(kMagic)));
@@ -159,11 +186,8 @@ void McapWriter::Write(std::uint16_t number, std::int64_t time_ns,
 
 void McapWriter::FlushChunk() {
   if (chunk_.empty()) return;
-  Bytes packed(ZSTD_compressBound(chunk_.size()));
-  const std::size_t n =
-      ZSTD_compress(packed.data(), packed.size(), chunk_.data(), chunk_.size(), kZstdLevel);
-  if (ZSTD_isError(n) != 0) throw std::runtime_error(fmt::format("{}: cannot compress", path_));
-  packed.resize(n);
+  const std::optional<Bytes> packed = Pack(chunk_, compression_);
+  if (!packed) throw std::runtime_error(fmt::format("{}: cannot compress", path_));
 
   Bytes body, bytes;
   Put(body)
@@ -171,12 +195,12 @@ void McapWriter::FlushChunk() {
       .Int(chunk_last_ns_)
       .Int(static_cast<std::uint64_t>(chunk_.size()))
       .Int(Crc(chunk_))
-      .String("zstd")
-      .Int(static_cast<std::uint64_t>(packed.size()))
-      .Raw(packed);
+      .String(NameOf(compression_))
+      .Int(static_cast<std::uint64_t>(packed->size()))
+      .Raw(*packed);
   AppendRecord(bytes, kChunk, body);
   ChunkIndex index{chunk_first_ns_, chunk_last_ns_, offset_, bytes.size(), 0,
-                   packed.size(),   chunk_.size(),  {}};
+                   packed->size(),  chunk_.size(),  {}};
   for (const auto& [channel, messages] : chunk_messages_) {
     index.index_offsets[channel] = offset_ + bytes.size();
     Bytes entries, record;
@@ -263,7 +287,7 @@ Bytes McapWriter::ChunkIndexRecords() const {
         .Int(static_cast<std::uint32_t>(map.size()))
         .Raw(map)
         .Int(c.index_length)
-        .String("zstd");
+        .String(NameOf(compression_));
     Put(body).Int(c.compressed).Int(c.uncompressed);
     AppendRecord(out, kChunkIndex, body);
   }

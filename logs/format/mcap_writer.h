@@ -14,13 +14,17 @@
 
 namespace scoria::logs {
 
-/// Writes an MCAP file of the `ros2` profile: CDR messages under ros2msg schemas in zstd chunks
+/// How chunks are packed.
+enum class McapCompression { kZstd, kLz4, kNone };
+
+/// Writes an MCAP file of the `ros2` profile: CDR messages under ros2msg schemas in chunks
 /// with index. Every chunk is flushed when it is full, so a killed process loses at most the last
 /// one. Source: [MCAP] specification, version 0.
 class McapWriter {
  public:
   /// Errors, here and below: core::FileError if the file cannot be opened or written.
-  explicit McapWriter(const std::filesystem::path& path, std::size_t chunk_bytes = 1 << 20);
+  explicit McapWriter(const std::filesystem::path& path, std::size_t chunk_bytes = 1 << 20,
+                      McapCompression compression = McapCompression::kZstd);
   ~McapWriter();
   McapWriter(const McapWriter&) = delete;
   McapWriter& operator=(const McapWriter&) = delete;
@@ -76,6 +80,7 @@ class McapWriter {
   std::ofstream out_;
   std::string path_;
   std::size_t chunk_bytes_;
+  McapCompression compression_;
   std::uint64_t offset_ = 0;
   Bytes chunk_;
   std::uint64_t chunk_first_ns_ = 0, chunk_last_ns_ = 0, first_ns_ = 0, last_ns_ = 0, total_ = 0;

@@ -64,12 +64,13 @@ void SqliteDatabase::Close::operator()(sqlite3* database) const { sqlite3_close_
 
 SqliteDatabase::SqliteDatabase(const std::filesystem::path& path, Mode mode) {
   constexpr int kLargestValue = 1 << 28;  // no message is larger
-  const bool recovers = mode == Mode::kRecover;
-  const std::string uri = ToUri(std::filesystem::absolute(path)) + (recovers ? "" : "?immutable=1");
+  int flags = SQLITE_OPEN_READONLY;
+  if (mode != Mode::kUnchanging) flags = SQLITE_OPEN_READWRITE;
+  if (mode == Mode::kCreate) flags |= SQLITE_OPEN_CREATE;
+  const std::string uri =
+      ToUri(std::filesystem::absolute(path)) + (mode == Mode::kUnchanging ? "?immutable=1" : "");
   sqlite3* database = nullptr;
-  const int result = sqlite3_open_v2(
-      uri.c_str(), &database,
-      SQLITE_OPEN_URI | (recovers ? SQLITE_OPEN_READWRITE : SQLITE_OPEN_READONLY), nullptr);
+  const int result = sqlite3_open_v2(uri.c_str(), &database, flags | SQLITE_OPEN_URI, nullptr);
   database_.reset(database);
   if (result != SQLITE_OK) throw SqliteError(sqlite3_errstr(result));
   sqlite3_limit(database, SQLITE_LIMIT_LENGTH, kLargestValue);

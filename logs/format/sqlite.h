@@ -45,6 +45,7 @@ class SqliteDatabase {
   enum class Mode {
     kUnchanging,  // the file alone, without -wal and -journal, and nothing is ever written
     kRecover,     // as SQLite opens its files: -wal and -journal count, and may be written back
+    kCreate,      // a new file, or one that is there to be written to
   };
   /// Errors, here and below: SqliteError.
   SqliteDatabase(const std::filesystem::path& path, Mode mode);
