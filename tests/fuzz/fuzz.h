@@ -13,6 +13,11 @@ namespace scoria::test {
 void FuzzCdr(std::span<const std::uint8_t> input);
 void FuzzMsg(std::span<const std::uint8_t> input);
 void FuzzIdl(std::span<const std::uint8_t> input);
+void FuzzMcap(std::span<const std::uint8_t> input);
+void FuzzDb3(std::span<const std::uint8_t> input);
+void FuzzBagMetadata(std::span<const std::uint8_t> input);
+void FuzzUrdf(std::span<const std::uint8_t> input);
+void FuzzYaml(std::span<const std::uint8_t> input);
 
 }  // namespace scoria::test
 
