@@ -118,5 +118,12 @@ TEST_F(Rosbag2Reference, EveryBagHasWhatItsFilesHave) {
   EXPECT_GE(opened, 20);
 }
 
+TEST_F(Rosbag2Reference, RobotsBagIsReadByItsFolder) {
+  const std::unique_ptr<LogSource> log =
+      OpenLog(folder_.parent_path() / "logs/go2_vicon_orl/test_6_vicon_bag");
+  EXPECT_EQ(CountMessages(*log), 7396u);
+  EXPECT_EQ(ProblemsOf(*log), Lines{});
+}
+
 }  // namespace
 }  // namespace scoria::logs
