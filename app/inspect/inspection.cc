@@ -14,6 +14,7 @@
 #include "analysis/report/json_text.h"
 #include "analysis/terrain/terrain_view.h"
 #include "app/inspect/derived_defaults.h"
+#include "app/inspect/log_info.h"
 #include "app/inspect/verdict.h"
 #include "app/run/robot_warnings.h"
 #include "app/scenario/config_kinds.h"
@@ -27,6 +28,8 @@
 #include "core/robot_files/load.h"
 #include "core/robot_files/shape_size.h"
 #include "core/text.h"
+#include "logs/format/open_log.h"
+#include "logs/survey.h"
 #include "terrains/generator.h"
 
 namespace scoria::app {
@@ -129,23 +132,52 @@ void PrintVerdict(const core::RobotDescription& robot) {
   fmt::print("verdict: {}\n", Verdict(findings));
 }
 
+struct InfoOptions {
+  std::string file;
+  std::vector<std::filesystem::path> msg_paths;
+  bool json = false, defaults = false;
+};
+
+void PrintRobotInfo(const InfoOptions& options) {
+  const core::RobotDescription robot = ReadScaledRobot(LoadKind("robot", options.file, {}));
+  PrintRobot(robot);
+  PrintShapes(robot);
+  if (options.defaults) PrintDefaults(robot);
+  std::vector<std::string> warnings = core::FindSuspicions(robot);
+  for (std::string& warning : core::FindModelWarnings(robot))
+    warnings.push_back(std::move(warning));
+  for (const std::string& warning : warnings) fmt::print("warning: {}\n", warning);
+  PrintVerdict(robot);
+}
+
+void PrintLogInfo(const InfoOptions& options) {
+  const logs::TypeResolver resolver(options.msg_paths);
+  const std::unique_ptr<logs::LogSource> log = logs::OpenLog(options.file);
+  const logs::LogSurvey survey = logs::SurveyLog(*log, resolver);
+  fmt::print("{}", options.json ? analysis::JsonText(LogInfoJson(*log, survey))
+                                : LogInfoText(*log, survey));
+}
+
 void AddInfo(CLI::App& app) {
-  auto file = std::make_shared<std::string>();
-  auto defaults = std::make_shared<bool>(false);
-  CLI::App* info =
-      app.add_subcommand("info", "print what a robot's files say, and what looks wrong");
-  info->add_option("robot", *file, "robot YAML")->required();
-  info->add_flag("--defaults", *defaults, "list the defaults that go with the robot's size");
-  info->callback([file, defaults] {
-    const core::RobotDescription robot = ReadScaledRobot(LoadKind("robot", *file, {}));
-    PrintRobot(robot);
-    PrintShapes(robot);
-    if (*defaults) PrintDefaults(robot);
-    std::vector<std::string> warnings = core::FindSuspicions(robot);
-    for (std::string& warning : core::FindModelWarnings(robot))
-      warnings.push_back(std::move(warning));
-    for (const std::string& warning : warnings) fmt::print("warning: {}\n", warning);
-    PrintVerdict(robot);
+  auto o = std::make_shared<InfoOptions>();
+  CLI::App* info = app.add_subcommand(
+      "info", "print what a log or a robot's files hold, and what is wrong with them");
+  info->add_option("file", o->file, "a log (a file, or the folder of a bag), or a robot YAML")
+      ->required();
+  info->add_option("--msg-path", o->msg_paths,
+                   "folder of .msg or .idl files that define types of a log; may be repeated");
+  info->add_flag("--json", o->json, "print what a log holds as JSON");
+  info->add_flag("--defaults", o->defaults, "list the defaults that go with a robot's size");
+  info->callback([o] {
+    if (IsTakenForLog(o->file)) {
+      if (o->defaults)
+        throw std::runtime_error(fmt::format("{}: is no robot; --defaults is for robots", o->file));
+      return PrintLogInfo(*o);
+    }
+    if (o->json || !o->msg_paths.empty())
+      throw std::runtime_error(
+          fmt::format("{}: is no log; --json and --msg-path are for logs", o->file));
+    PrintRobotInfo(*o);
   });
 }
 
