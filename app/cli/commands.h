@@ -17,5 +17,6 @@ void AddCheckQps(CLI::App& app, int& exit_code);
 void AddSchema(CLI::App& app);
 void AddVerify(CLI::App& app, int& exit_code);
 void AddReplay(CLI::App& app, int& exit_code);
+void AddExport(CLI::App& app, int& exit_code);
 
 }  // namespace scoria::app

@@ -85,7 +85,7 @@ void AppendRecord(Bytes& out, Op op, const Bytes& body) {
 }  // namespace
 
 McapWriter::McapWriter(const std::filesystem::path& path, std::size_t chunk_bytes,
-                       McapCompression compression)
+                       McapCompression compression, const std::string& profile)
     : out_(path, std::ios::binary),
       path_(path.string()),
       chunk_bytes_(chunk_bytes),
@@ -94,7 +94,7 @@ McapWriter::McapWriter(const std::filesystem::path& path, std::size_t chunk_byte
   Bytes bytes;
   Put(bytes).Raw(std::as_bytes(std::span(kMagic)));
   Bytes header;
-  Put(header).String("ros2").String("scoria");
+  Put(header).String(profile).String("scoria");
   AppendRecord(bytes, kHeader, header);
   Emit(bytes);
 }
@@ -117,15 +117,40 @@ void McapWriter::Emit(const Bytes& bytes) {
 
 std::uint16_t McapWriter::AddChannel(const std::string& topic, const std::string& type_name,
                                      const std::string& schema_text) {
-  auto schema = std::find_if(schemas_.begin(), schemas_.end(), [&](const Schema& s) {
-    return s.name == type_name && s.text == schema_text;
-  });
-  if (schema == schemas_.end()) {
-    schemas_.push_back({type_name, schema_text, false});
-    schema = schemas_.end() - 1;
+  Channel channel;
+  channel.topic = topic;
+  channel.message_encoding = "cdr";
+  channel.metadata = kChannelMetadata;
+  return Add(std::move(channel), type_name, LogSchema{"ros2msg", schema_text});
+}
+
+std::uint16_t McapWriter::CopyChannel(const LogChannel& from) {
+  Channel channel;
+  channel.topic = from.topic;
+  channel.message_encoding = from.message_encoding;
+  channel.metadata = from.metadata;
+  channel.is_kept = true;
+  return Add(std::move(channel), from.type_name, from.schema);
+}
+
+std::uint16_t McapWriter::Add(Channel channel, const std::string& type_name,
+                              const std::optional<LogSchema>& schema) {
+  constexpr std::size_t kMostChannels = 65535;  // numbers have 16 bits, and schema 0 is none
+  if (channels_.size() == kMostChannels)
+    throw std::runtime_error(fmt::format("{}: more than {} channels", path_, kMostChannels));
+  // A type whose container has no definition keeps its name by an empty schema.
+  if (schema || !type_name.empty()) {
+    const LogSchema wanted = schema.value_or(LogSchema{});
+    auto known = std::find_if(schemas_.begin(), schemas_.end(), [&](const Schema& s) {
+      return s.name == type_name && s.schema == wanted;
+    });
+    if (known == schemas_.end()) {
+      schemas_.push_back({type_name, wanted, false});
+      known = schemas_.end() - 1;
+    }
+    channel.schema = static_cast<std::uint16_t>(known - schemas_.begin() + 1);
   }
-  channels_.push_back(
-      {static_cast<std::uint16_t>(schema - schemas_.begin() + 1), topic, 0, false, 0});
+  channels_.push_back(std::move(channel));
   return static_cast<std::uint16_t>(channels_.size() - 1);
 }
 
@@ -135,8 +160,8 @@ void McapWriter::AppendSchema(Bytes& out, std::size_t index) const {
   Put(body)
       .Int(static_cast<std::uint16_t>(index + 1))
       .String(schema.name)
-      .String("ros2msg")
-      .String(schema.text);
+      .String(schema.schema.encoding)
+      .String(schema.schema.text);
   AppendRecord(out, kSchema, body);
 }
 
@@ -147,22 +172,43 @@ void McapWriter::AppendChannel(Bytes& out, std::size_t index) const {
       .Int(static_cast<std::uint16_t>(index))
       .Int(channel.schema)
       .String(channel.topic)
-      .String("cdr")
-      .Map(kChannelMetadata);
+      .String(channel.message_encoding)
+      .Map(channel.metadata);
   AppendRecord(out, kChannel, body);
+}
+
+/// Schema and channel, where they are not in the file yet.
+void McapWriter::Announce(std::uint16_t number, Bytes& out) {
+  Channel& channel = channels_[number];
+  if (channel.announced) return;
+  if (channel.schema != 0) {
+    Schema& schema = schemas_[channel.schema - 1u];
+    if (!schema.announced) AppendSchema(out, channel.schema - 1u);
+    schema.announced = true;
+  }
+  AppendChannel(out, number);
+  channel.announced = true;
 }
 
 void McapWriter::Write(std::uint16_t number, std::int64_t time_ns,
                        std::span<const std::byte> message) {
-  Channel& channel = channels_.at(number);
   const auto time = static_cast<std::uint64_t>(time_ns);
-  if (!channel.announced) {
-    Schema& schema = schemas_[channel.schema - 1u];
-    if (!schema.announced) AppendSchema(chunk_, channel.schema - 1u);
-    schema.announced = true;
-    AppendChannel(chunk_, number);
-    channel.announced = true;
-  }
+  Append(number, {channels_.at(number).sequence++, time, time}, message);
+}
+
+void McapWriter::Copy(std::uint16_t number, const LogMessage& message) {
+  const std::uint32_t own = channels_.at(number).sequence++;
+  Append(number,
+         {message.sequence.value_or(own), static_cast<std::uint64_t>(message.log_time_ns),
+          static_cast<std::uint64_t>(message.publish_time_ns.value_or(message.log_time_ns))},
+         message.data);
+}
+
+void McapWriter::Append(std::uint16_t number, const MessageHead& head,
+                        std::span<const std::byte> message) {
+  Channel& channel = channels_.at(number);
+  const std::uint64_t time = head.log_time_ns;
+  Announce(number, chunk_);
   if (chunk_messages_.empty()) chunk_first_ns_ = chunk_last_ns_ = time;
   if (total_ == 0) first_ns_ = last_ns_ = time;
   chunk_first_ns_ = std::min(chunk_first_ns_, time);
@@ -175,9 +221,9 @@ void McapWriter::Write(std::uint16_t number, std::int64_t time_ns,
       .Int(static_cast<std::uint8_t>(kMessage))
       .Int(length)
       .Int(number)
-      .Int(channel.sequence++)
+      .Int(head.sequence)
       .Int(time)
-      .Int(time)
+      .Int(head.publish_time_ns)
       .Raw(message);
   ++channel.count;
   ++total_;
@@ -347,6 +393,9 @@ void McapWriter::Close() {
   closed_ = true;
   FlushChunk();
   Bytes body, bytes;
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    if (channels_[i].is_kept) Announce(static_cast<std::uint16_t>(i), bytes);
+  }
   Put(body).Int(std::uint32_t{0});  // 0: the data section has no checksum of its own
   AppendRecord(bytes, kDataEnd, body);
   Emit(bytes);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,18 +23,30 @@ enum class McapCompression { kZstd, kLz4, kNone };
 /// one. Source: [MCAP] specification, version 0.
 class McapWriter {
  public:
+  static constexpr std::size_t kChunkBytes = 1 << 20;
+  static constexpr const char* kRosProfile = "ros2";
+
+  /// @param profile  of what the channels hold; empty: none.
   /// Errors, here and below: core::FileError if the file cannot be opened or written.
-  explicit McapWriter(const std::filesystem::path& path, std::size_t chunk_bytes = 1 << 20,
-                      McapCompression compression = McapCompression::kZstd);
+  explicit McapWriter(const std::filesystem::path& path, std::size_t chunk_bytes = kChunkBytes,
+                      McapCompression compression = McapCompression::kZstd,
+                      const std::string& profile = kRosProfile);
   ~McapWriter();
   McapWriter(const McapWriter&) = delete;
   McapWriter& operator=(const McapWriter&) = delete;
 
-  /// @returns the channel's number, to write messages to. Channels of the same type and schema text
-  /// share a schema.
+  /// @returns the channel's number, to write messages to. Channels of the same type and schema
+  /// share it. One without messages is not in the file.
   std::uint16_t AddChannel(const std::string& topic, const std::string& type_name,
                            const std::string& schema_text);
   void Write(std::uint16_t channel, std::int64_t time_ns, std::span<const std::byte> message);
+
+  /// A channel of another log, in the file whether it has messages or not.
+  /// Errors: std::runtime_error for more channels than the format can number.
+  std::uint16_t CopyChannel(const LogChannel& channel);
+  /// With its times and its sequence number; the container's own where the message has none.
+  void Copy(std::uint16_t channel, const LogMessage& message);
+
   void AddMetadata(const std::string& name, const LogMetadata& metadata);
   void AddAttachment(const LogAttachment& attachment);
 
@@ -42,15 +55,22 @@ class McapWriter {
 
  private:
   struct Channel {
-    std::uint16_t schema = 0;
-    std::string topic;
+    std::uint16_t schema = 0;  // 0: none
+    std::string topic, message_encoding;
+    LogMetadata metadata;
     std::uint32_t sequence = 0;
-    bool announced = false;  // in some chunk
+    bool announced = false;  // in the file
+    bool is_kept = false;    // without messages, too
     std::uint64_t count = 0;
   };
   struct Schema {
-    std::string name, text;
+    std::string name;
+    LogSchema schema;
     bool announced = false;
+  };
+  struct MessageHead {
+    std::uint32_t sequence = 0;
+    std::uint64_t log_time_ns = 0, publish_time_ns = 0;
   };
   struct ChunkIndex {
     std::uint64_t first_ns, last_ns, offset, length, index_length, compressed, uncompressed;
@@ -66,6 +86,10 @@ class McapWriter {
   };
 
   void Emit(const Bytes& bytes);
+  std::uint16_t Add(Channel channel, const std::string& type_name,
+                    const std::optional<LogSchema>& schema);
+  void Announce(std::uint16_t number, Bytes& out);
+  void Append(std::uint16_t number, const MessageHead& head, std::span<const std::byte> message);
   void FlushChunk();
   void AppendSchema(Bytes& out, std::size_t index) const;
   void AppendChannel(Bytes& out, std::size_t index) const;
