@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "logs/read_rows.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "logs/format/open_log.h"
@@ -19,6 +21,11 @@ std::string WriterOf(const LogSource& log) {
   return "an unnamed program";
 }
 
+bool HasRows(const LogContents& contents) {
+  return std::any_of(contents.channels.begin(), contents.channels.end(),
+                     [](const LogChannel& c) { return c.topic.starts_with(kRowTopics); });
+}
+
 /// One pass over a log. @returns what is wrong with it.
 std::string ReadRows(const std::filesystem::path& path, const RowJoiner::OnRow& on_row,
                      const std::function<void(const LogMessage&)>& on_other) {
@@ -34,6 +41,9 @@ std::string ReadRows(const std::filesystem::path& path, const RowJoiner::OnRow& 
     joiner.Finish();
     if (const std::string rows = DescribeRowProblems(*log, joiner); !rows.empty())
       problem += fmt::format("{}{}: {}", problem.empty() ? "" : "; ", path.string(), rows);
+    if (problem.empty() && !HasRows(log->contents()))
+      problem =
+          fmt::format("{}: holds no rows; logs of scoria do, with log.topics=all", path.string());
     return problem;
   } catch (const std::exception& e) {
     return e.what();

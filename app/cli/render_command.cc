@@ -9,6 +9,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/note.h"
 #include "app/cli/progress.h"
+#include "app/episode/record.h"
 #include "app/run/log_origin.h"
 #include "core/robot_files/mesh_records.h"
 #include "logs/read_rows.h"
@@ -57,6 +58,10 @@ void AddRender(CLI::App& app) {
                                   : std::filesystem::path(o->out);
     analysis::CheckVideoFile(options.file);  // before the long way there
     const LogOrigin origin = ReadLogOrigin(o->log);
+    if (const std::string missing = MissingTopics(origin.scenario.log); !missing.empty())
+      throw std::runtime_error(
+          fmt::format("{}: {}, without the rows that a video needs; record it with log.topics=all",
+                      o->log, missing));
     core::RobotDescription robot = RobotOf(origin);
     for (const std::string& remark : core::DrawLostMeshesAsBoxes(robot)) Note(remark);
     const terrains::Heightfield ground = GroundOf(origin);

@@ -15,6 +15,8 @@ void AddVerify(CLI::App& app, int& exit_code) {
   verify->callback([log, &exit_code] {
     const VerifyResult result = VerifyLog(*log);
     if (!result.file_problem.empty()) fmt::print("{}\n", result.file_problem);
+    if (!result.missing.empty())
+      fmt::print("{}; state hashes and rows are not compared\n", result.missing);
     if (result.identical) {
       fmt::print("identical: {} messages{}\n", result.messages,
                  result.complete ? "" : fmt::format(", up to {:.3f} s", result.until_s));

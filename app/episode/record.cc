@@ -2,7 +2,9 @@
 #include "app/episode/record.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 
 #include "app/episode/arrays.h"
 #include "app/run/log_origin.h"
@@ -65,9 +67,24 @@ msg::Quaternion ToMessage(const Mat3& R) {
   return {q.x(), q.y(), q.z(), q.w()};
 }
 
+/// Preset 4, "total", of the reference's record_experiment.sh. Its /controller_hartbeat is a slip
+/// that records nothing; /gait_sequence, /open_loop_trajectory and what other devices send are not
+/// scoria's.
+bool IsOfReference(std::string_view topic) {
+  constexpr std::array<std::string_view, 12> kTopics = {
+      "/quad_state", "/joint_states",   "/imu_measurement",   "/contact_state",
+      "/joint_cmd",  "/wbc_target",     "/battery_state",     "/gait_state",
+      "/solve_time", "/wbc_solve_time", "/quad_model_update", "/quad_control_target"};
+  return std::find(kTopics.begin(), kTopics.end(), topic) != kTopics.end();
+}
+
 template <class Message>
 Topic MakeTopic(const std::string& name, bool reproducible = true) {
-  return {name, Message::kTypeName, logs::SchemaWriter::SchemaOf<Message>(), reproducible,
+  return {name,
+          Message::kTypeName,
+          logs::SchemaWriter::SchemaOf<Message>(),
+          reproducible,
+          IsOfReference(name),
           [](std::span<const std::byte> bytes) {
             auto message = logs::DecodeCdr<Message>(bytes);
             logs::FieldLister lister;
@@ -260,6 +277,15 @@ const std::vector<Topic>& RecordedTopics() {
   return kTopics;
 }
 
+bool IsLogged(const Topic& topic, const LogParams& params) {
+  return params.topics == LogTopics::kAll || topic.of_reference;
+}
+
+std::string MissingTopics(const LogParams& params) {
+  if (params.topics == LogTopics::kAll) return "";
+  return "the log holds the reference's topics alone (log.topics=reference)";
+}
+
 Recorder::Recorder(MessageSink& sink, const Scenario& scenario)
     : sink_(sink),
       slow_every_(
@@ -354,21 +380,25 @@ FileSink::FileSink(const std::filesystem::path& path, const Scenario& scenario,
                    const core::RobotDescription& robot, const logs::LogMetadata& extra)
     : writer_(path), params_(scenario.log) {
   writer_.AddMetadata(kScenarioMetadata, MakeLogMetadata(scenario, robot, extra));
-  writer_.AddMetadata(logs::kRowMetadata, logs::MakeRowMetadata(kVersion));
+  if (params_.topics == LogTopics::kAll)
+    writer_.AddMetadata(logs::kRowMetadata, logs::MakeRowMetadata(kVersion));
   if (const auto heightmap = PackHeightmap(scenario)) writer_.AddAttachment(*heightmap);
   for (const Topic& topic : RecordedTopics()) {
-    channels_.push_back(writer_.AddChannel(topic.name, topic.type_name, topic.schema_text));
+    channels_.emplace_back();
+    if (IsLogged(topic, params_))
+      channels_.back() = writer_.AddChannel(topic.name, topic.type_name, topic.schema_text);
   }
 }
 
 void FileSink::Write(const Topic& topic, std::int64_t time_ns, std::span<const std::byte> message) {
-  const std::uint16_t channel =
+  const std::optional<std::uint16_t> channel =
       channels_[static_cast<std::size_t>(&topic - RecordedTopics().data())];
+  if (!channel) return;
   if (params_.keep == KeepLog::kFull || time_ns <= write_until_ns_) {
-    writer_.Write(channel, time_ns, message);
+    writer_.Write(*channel, time_ns, message);
     return;
   }
-  held_.push_back({channel, time_ns, {message.begin(), message.end()}});
+  held_.push_back({*channel, time_ns, {message.begin(), message.end()}});
   const std::int64_t oldest = time_ns - ToNanoseconds(params_.before_fall_s);
   while (held_.front().time_ns < oldest) held_.pop_front();
 }

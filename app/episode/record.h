@@ -4,6 +4,7 @@
 #include <deque>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -20,7 +21,8 @@ namespace scoria::app {
 /// A topic of the log: what it holds and how to list a message's fields.
 struct Topic {
   std::string name, type_name, schema_text;
-  bool reproducible = true;  // false where messages hold wall-clock times
+  bool reproducible = true;   // false where messages hold wall-clock times
+  bool of_reference = false;  // the reference framework's recorder writes it
   std::vector<std::pair<std::string, std::string>> (*list_fields)(std::span<const std::byte>) =
       nullptr;
 };
@@ -62,6 +64,13 @@ class Recorder final : public EpisodeObserver {
 /// Every topic that Recorder writes.
 [[nodiscard]] const std::vector<Topic>& RecordedTopics();
 
+/// Whether a log of these parameters has messages of a topic.
+[[nodiscard]] bool IsLogged(const Topic& topic, const LogParams& params);
+
+/// What a log lacks by its parameters, as "the log holds the reference's topics alone
+/// (log.topics=reference)"; empty if it has all topics.
+[[nodiscard]] std::string MissingTopics(const LogParams& params);
+
 /// Writes an MCAP log that can be re-run and drawn on another computer: effective scenario, URDF,
 /// mesh boxes, heightmap, versions, terrain statistics.
 class FileSink final : public MessageSink {
@@ -80,8 +89,8 @@ class FileSink final : public MessageSink {
   };
   logs::McapWriter writer_;
   LogParams params_;
-  std::vector<std::uint16_t> channels_;  // by topic
-  std::deque<Held> held_;                // the time before a possible fall
+  std::vector<std::optional<std::uint16_t>> channels_;  // by topic; none: not logged
+  std::deque<Held> held_;                               // the time before a possible fall
   std::int64_t write_until_ns_ = -1;
 };
 

@@ -162,6 +162,11 @@ ReplayResult ReplayLog(const std::filesystem::path& log,
           {}, "", fmt::format("--set {}: a replay can only change controller.*", assignment));
   }
   const LogOrigin origin = ReadLogOrigin(log, overrides);
+  if (const std::string missing = MissingTopics(origin.scenario.log); !missing.empty())
+    throw std::runtime_error(
+        fmt::format("{}: {}, without the controller's inputs that a replay "
+                    "needs; record it with log.topics=all",
+                    log.string(), missing));
   if (NeedsTruthEver(origin.scenario))
     throw std::runtime_error(
         fmt::format("{}: a controller that runs on the truth cannot be replayed; choose other "

@@ -52,6 +52,7 @@ class CompareSink final : public MessageSink {
   CompareSink(const std::filesystem::path& log, const Scenario& scenario)
       : log_(log),
         step_s_(scenario.physics.step_s),
+        params_(scenario.log),
         complete_(scenario.log.keep == KeepLog::kFull) {
     std::optional<std::int64_t> interrupted_ns;
     const std::unique_ptr<logs::LogSource> source = logs::OpenLog(log);
@@ -74,7 +75,8 @@ class CompareSink final : public MessageSink {
 
   void Write(const Topic& topic, std::int64_t time_ns,
              std::span<const std::byte> message) override {
-    if (!topic.reproducible || !difference_.empty() || time_ns > last_ns_) return;
+    if (!topic.reproducible || !IsLogged(topic, params_)) return;
+    if (!difference_.empty() || time_ns > last_ns_) return;
     const std::vector<Logged>& kept = logged_[topic.name];
     std::size_t& next = next_[topic.name];
     if (next >= kept.size() || kept[next].time_ns > time_ns) {
@@ -122,7 +124,8 @@ class CompareSink final : public MessageSink {
             whole_,
             1e-9 * static_cast<double>(std::max<std::int64_t>(last_ns_, 0)),
             difference_,
-            problem};
+            problem,
+            MissingTopics(params_)};
   }
 
  private:
@@ -157,6 +160,7 @@ class CompareSink final : public MessageSink {
 
   std::filesystem::path log_;
   double step_s_;
+  LogParams params_;
   bool complete_;
   std::map<std::string, std::vector<Logged>> logged_;
   std::map<std::string, std::size_t> next_;

@@ -14,6 +14,7 @@ struct VerifyResult {
   double until_s = 0.0;        // how far it was compared
   std::string difference;      // first one: step, time, topic, field, both values
   std::string file_problem;    // a truncated log, in words
+  std::string missing;         // topics that the log lacks by its scenario, in words
 };
 
 /// Re-runs the episode of a log and compares every reproducible message bit for bit, as far as the

@@ -29,12 +29,21 @@ constexpr std::array<std::pair<KeepLog, std::string_view>, 3> EnumNames(KeepLog)
   return {{{KeepLog::kFull, "full"}, {KeepLog::kFalls, "falls"}, {KeepLog::kMetrics, "metrics"}}};
 }
 
+enum class LogTopics { kAll, kReference };
+constexpr std::array<std::pair<LogTopics, std::string_view>, 2> EnumNames(LogTopics) {
+  return {{{LogTopics::kAll, "all"}, {LogTopics::kReference, "reference"}}};
+}
+
 struct LogParams {
   KeepLog keep = KeepLog::kFull;
+  LogTopics topics = LogTopics::kAll;
   double before_fall_s = 8.0, after_fall_s = 2.0;
   template <class Archive>
   void Serialize(Archive& a) {
     a.Field("keep", keep, {.doc = "everything, the time around each fall, or nothing but metrics"});
+    a.Field("topics", topics,
+            {.doc = "all, or those that the reference framework's recorder writes, as in its field "
+                    "logs: no rows, which report, render and replay need"});
     a.Field("before_fall_s", before_fall_s, {.min = 0.0, .max = 600.0});
     a.Field("after_fall_s", after_fall_s, {.min = 0.0, .max = 600.0});
   }
