@@ -9,6 +9,7 @@
 #include "core/file_kind.h"
 #include "logs/format/bag_files.h"
 #include "logs/format/bag_log.h"
+#include "logs/format/csv_log.h"
 #include "logs/format/db3_database.h"
 #include "logs/format/db3_log.h"
 #include "logs/format/mcap_log.h"
@@ -69,6 +70,7 @@ std::unique_ptr<LogSource> OpenFile(const fs::path& path) {
   const Ends ends(path);
   if (IsZstd(ends.head)) return OpenUnpacked(path);
   if (std::unique_ptr<LogSource> log = OpenContent(LogFile(path), ends)) return log;
+  if (IsCsv(path)) return OpenCsv({path});
   FailNoLog(LogFile(path), ends);
 }
 
@@ -93,6 +95,7 @@ std::unique_ptr<LogSource> OpenBag(const fs::path& path, const fs::path& folder)
 }
 
 std::unique_ptr<LogSource> OpenFolder(const fs::path& path) {
+  if (const auto tables = CsvFilesIn(path); !tables.empty()) return OpenCsv(tables);
   if (std::unique_ptr<LogSource> bag = OpenBag(path, path)) return bag;
   throw std::runtime_error(
       fmt::format("{}: is a folder without a log (no .db3 or .mcap file, packed by zstd or not); "
@@ -112,6 +115,16 @@ std::unique_ptr<LogSource> OpenLog(const fs::path& path) {
   if (fs::is_directory(path)) return OpenFolder(path);
   if (fs::exists(path) && IsBagMetadata(path)) return OpenFolder(fs::absolute(path).parent_path());
   return OpenFile(path);
+}
+
+std::unique_ptr<LogSource> OpenLog(const std::vector<fs::path>& paths) {
+  if (paths.size() == 1) return OpenLog(paths.front());
+  for (const fs::path& path : paths) {
+    if (fs::is_directory(path) || !IsCsv(path))
+      throw std::runtime_error(
+          fmt::format("{}: is no CSV file; only those can be one log together", path.string()));
+  }
+  return OpenCsv(paths);
 }
 
 }  // namespace scoria::logs

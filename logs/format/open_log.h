@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include "logs/format/log_source.h"
 
@@ -14,5 +15,9 @@ namespace scoria::logs {
 /// Errors: std::runtime_error that names the file and says what it is if it is no such log;
 /// core::FileError if it cannot be read.
 [[nodiscard]] std::unique_ptr<LogSource> OpenLog(const std::filesystem::path& path);
+
+/// Opens several CSV files on one clock as one log. @pre there is at least one path.
+/// Errors: as above, and std::runtime_error for several files that are not all CSV.
+[[nodiscard]] std::unique_ptr<LogSource> OpenLog(const std::vector<std::filesystem::path>& paths);
 
 }  // namespace scoria::logs

@@ -35,7 +35,7 @@ TEST(OpenLog, GoesByContentNotByName) {
 
 TEST(OpenLog, SaysWhatElseAFileIs) {
   EXPECT_EQ(ErrorOf(""), "a.mcap: is empty");
-  EXPECT_EQ(ErrorOf("time,q\n0,1\n"), "a.mcap: is not a log that scoria reads");
+  EXPECT_EQ(ErrorOf("Dear reader,\nthis is a letter.\n"), "a.mcap: is not a log that scoria reads");
   EXPECT_EQ(ErrorOf("\x89PNG\r\n"),
             "a.mcap: is a PNG image, not a log that scoria reads (a terrain names it: heightmap: "
             "{file: NAME.png})");
