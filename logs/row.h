@@ -21,6 +21,7 @@ struct Row {
   std::optional<LedgerRow> ledger = std::nullopt;
   std::optional<MeasuredRow> measured = std::nullopt;
   std::optional<CommandRow> command = std::nullopt;
+  std::optional<JointCommandRow> joint_command = std::nullopt;
   std::optional<PlanRow> plan = std::nullopt;
   std::optional<ReferenceRow> reference = std::nullopt;
   std::optional<EstimateRow> estimate = std::nullopt;
@@ -43,6 +44,7 @@ void ForEachGroup(AnyRow& row, Visit&& visit) {
   visit(row.ledger);
   visit(row.measured);
   visit(row.command);
+  visit(row.joint_command);
   visit(row.plan);
   visit(row.reference);
   visit(row.estimate);

@@ -28,6 +28,7 @@ enum class RowGroup {
   kLedger,
   kMeasured,
   kCommand,
+  kJointCommand,
   kPlan,
   kReference,
   kEstimate,
@@ -36,7 +37,7 @@ enum class RowGroup {
   kSupervision,
   kSolveTimes,
 };
-inline constexpr std::size_t kNumRowGroups = 16;
+inline constexpr std::size_t kNumRowGroups = 17;
 constexpr std::array<std::pair<RowGroup, std::string_view>, kNumRowGroups> EnumNames(RowGroup) {
   return {{{RowGroup::kEpisode, "episode"},
            {RowGroup::kTruth, "truth"},
@@ -47,6 +48,7 @@ constexpr std::array<std::pair<RowGroup, std::string_view>, kNumRowGroups> EnumN
            {RowGroup::kLedger, "ledger"},
            {RowGroup::kMeasured, "measured"},
            {RowGroup::kCommand, "command"},
+           {RowGroup::kJointCommand, "joint_command"},
            {RowGroup::kPlan, "plan"},
            {RowGroup::kReference, "reference"},
            {RowGroup::kEstimate, "estimate"},
@@ -109,13 +111,15 @@ struct TrueJointsRow {
   bool operator==(const TrueJointsRow&) const = default;
 };
 
-/// True contacts of feet and trunk with the ground.
+/// True contacts of feet and trunk with the ground. A log of another simulator may have the
+/// contacts alone.
 struct TrueContactsRow {
   static constexpr RowGroup kGroup = RowGroup::kTrueContacts;
   static constexpr const char* kTypeName = "scoria_msgs/msg/TrueContactsRow";
-  Array12 p_WF_m{}, f_F_W_N{};  // feet, and the ground's forces on them
+  std::optional<Array12> p_WF_m = std::nullopt;   // feet
+  std::optional<Array12> f_F_W_N = std::nullopt;  // the ground's forces on them
   PerLeg<bool> contact{};
-  double trunk_force_N = 0.0;
+  std::optional<double> trunk_force_N = std::nullopt;
   template <class Archive>
   void Serialize(Archive& a) {
     a("p_WF_m", p_WF_m);
@@ -149,7 +153,8 @@ struct MeasuredRow {
   std::optional<Array12> q_rad = std::nullopt, qd_radps = std::nullopt;
   std::optional<Array12> tau_Nm = std::nullopt;  // by the motors' currents
   std::optional<Array3> a_WS_S_mps2 = std::nullopt,
-                        w_WS_S_radps = std::nullopt;               // IMU: specific force, rate
+                        w_WS_S_radps = std::nullopt;  // IMU: specific force, rate
+  std::optional<Array3> rpy_WS_rad = std::nullopt;    // attitude by the IMU's own filter
   std::optional<PerLeg<double>> foot_force_counts = std::nullopt;  // raw
   std::optional<double> battery_V = std::nullopt, battery_A = std::nullopt;
   template <class Archive>
@@ -159,6 +164,7 @@ struct MeasuredRow {
     a("tau_Nm", tau_Nm);
     a("a_WS_S_mps2", a_WS_S_mps2);
     a("w_WS_S_radps", w_WS_S_radps);
+    a("rpy_WS_rad", rpy_WS_rad);
     a("foot_force_counts", foot_force_counts);
     a("battery_V", battery_V);
     a("battery_A", battery_A);
@@ -178,6 +184,24 @@ struct CommandRow {
     a("w_z_radps", w_z_radps);
   }
   bool operator==(const CommandRow&) const = default;
+};
+
+/// What the joints were told. Rows of our own walks leave it to /joint_cmd.
+struct JointCommandRow {
+  static constexpr RowGroup kGroup = RowGroup::kJointCommand;
+  static constexpr const char* kTypeName = "scoria_msgs/msg/JointCommandRow";
+  std::optional<Array12> q_rad = std::nullopt, qd_radps = std::nullopt;
+  std::optional<Array12> tau_Nm = std::nullopt;  // beside the torques of the gains
+  std::optional<Array12> kp_Nm_per_rad = std::nullopt, kd_Nms_per_rad = std::nullopt;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a("q_rad", q_rad);
+    a("qd_radps", qd_radps);
+    a("tau_Nm", tau_Nm);
+    a("kp_Nm_per_rad", kp_Nm_per_rad);
+    a("kd_Nms_per_rad", kd_Nms_per_rad);
+  }
+  bool operator==(const JointCommandRow&) const = default;
 };
 
 /// Gait and footholds as planned. Points are in the estimator's frame.
@@ -299,7 +323,8 @@ struct ContactsRow {
 /// What an adaptation learned of the whole robot's mass.
 struct LearnedModel {
   static constexpr const char* kTypeName = "scoria_msgs/msg/LearnedModel";
-  double mass_kg = 0.0, sigma_kg = 0.0;
+  double mass_kg = 0.0;
+  std::optional<double> sigma_kg = std::nullopt;
   Array3 p_BC_m{};     // in B
   bool tared = false;  // the readings at the known mass were taken, or none asked for
   template <class Archive>

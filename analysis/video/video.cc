@@ -99,9 +99,9 @@ Frame MakeFrame(const logs::Row& row, std::span<const logs::Row> before) {
   frame.R_WB = core::RotationFromRpy(motion.rpy_rad);
   const logs::Array12& q_rad = row.true_joints ? row.true_joints->q_rad : *row.measured->q_rad;
   frame.q = Unflatten(q_rad);
-  if (row.true_contacts) {
-    const LegArray<Vec3> p_WF = Unflatten(row.true_contacts->p_WF_m);
-    const LegArray<Vec3> f_F_W = Unflatten(row.true_contacts->f_F_W_N);
+  if (row.true_contacts && row.true_contacts->p_WF_m && row.true_contacts->f_F_W_N) {
+    const LegArray<Vec3> p_WF = Unflatten(*row.true_contacts->p_WF_m);
+    const LegArray<Vec3> f_F_W = Unflatten(*row.true_contacts->f_F_W_N);
     for (const Leg leg : kLegs) AddForce(p_WF[leg], f_F_W[leg], frame);
   }
   AddFootholds(row, frame);
@@ -111,7 +111,9 @@ Frame MakeFrame(const logs::Row& row, std::span<const logs::Row> before) {
 
 /// Whether a foot bears weight: truly, or for want of that as estimated.
 bool BearsWeight(const logs::Row& row, std::size_t leg) {
-  if (row.true_contacts) return row.true_contacts->f_F_W_N[3 * leg + 2] > 5.0;
+  if (row.true_contacts && row.true_contacts->f_F_W_N)
+    return (*row.true_contacts->f_F_W_N)[3 * leg + 2] > 5.0;
+  if (row.true_contacts) return row.true_contacts->contact[leg];
   return row.contacts && row.contacts->contact[leg];
 }
 

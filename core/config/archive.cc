@@ -130,4 +130,12 @@ ConfigNode Scalar(std::string text) {
   return {ConfigNode::Kind::kScalar, std::move(text), {}, {}, {}};
 }
 
+ConfigNode LongForm(const ConfigNode& node, const char* scalar_key, const char* list_key) {
+  const bool is_scalar = node.kind == ConfigNode::Kind::kScalar;
+  if (!is_scalar && node.kind != ConfigNode::Kind::kSequence) return node;
+  ConfigNode map{ConfigNode::Kind::kMap, {}, {}, {}, node.origin};
+  map.entries.push_back({is_scalar ? scalar_key : list_key, node.origin, node});
+  return map;
+}
+
 }  // namespace scoria::core::config_detail

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -34,7 +35,7 @@ struct FieldInfo {
   bool required = false;
   std::vector<std::string> choices;  // of an enum
   std::vector<FieldInfo>
-      children;  // of a struct; of a variant one child per alternative; of a list its element
+      children;  // of a struct; of a variant one per alternative; of a list or map its element
 };
 
 /// A map that is read elsewhere, as overrides of another file's keys.
@@ -60,6 +61,11 @@ template <class T>
 struct IsArray : std::false_type {};
 template <class T, std::size_t N>
 struct IsArray<std::array<T, N>> : std::true_type {};
+
+template <class T>
+struct IsMap : std::false_type {};
+template <class T>
+struct IsMap<std::map<std::string, T>> : std::true_type {};
 
 template <class T>
 std::vector<std::string> Choices() {
@@ -98,6 +104,8 @@ void AddNote(const ConfigNode& node, const std::string& what, std::vector<std::s
 [[noreturn]] void ThrowTwice(const ConfigNode& former, const std::string& path, const char* was);
 std::string FormatDouble(double value);
 ConfigNode Scalar(std::string text);
+/// A struct that was written short, as one value or a list, with the key that this stands for.
+ConfigNode LongForm(const ConfigNode& node, const char* scalar_key, const char* list_key);
 
 }  // namespace config_detail
 
@@ -184,6 +192,14 @@ class ConfigReader {
       }
     }
     config_detail::AddNote(former, note, context_.notes);
+  }
+  template <class T>
+  static void ReadStruct(const ConfigNode& node, const std::string& path, ConfigContext& context,
+                         T& value) {
+    ConfigReader reader(node, path, context);
+    value.Serialize(reader);
+    reader.Finish();
+    CheckWhole(node, path, value);
   }
   template <class Variant>
   static void ReadVariant(const ConfigNode& node, const std::string& path, ConfigContext& context,
@@ -295,11 +311,14 @@ void ConfigReader::Read(const ConfigNode& node, const std::string& path, ConfigC
     }
   } else if constexpr (d::IsVariant<T>::value) {
     ReadVariant(node, path, context, value);
+  } else if constexpr (d::IsMap<T>::value) {
+    if (node.kind != ConfigNode::Kind::kMap) d::ThrowKind(node, path, "a map");
+    for (const ConfigNode::Entry& entry : node.entries)
+      Read(entry.value, path + "." + entry.key, context, value[entry.key], rule);
+  } else if constexpr (requires { T::kScalarKey; }) {
+    ReadStruct(d::LongForm(node, T::kScalarKey, T::kListKey), path, context, value);
   } else {
-    ConfigReader reader(node, path, context);
-    value.Serialize(reader);
-    reader.Finish();
-    CheckWhole(node, path, value);
+    ReadStruct(node, path, context, value);
   }
 }
 
@@ -347,6 +366,10 @@ ConfigNode ConfigWriter::Write(T& value) {
     ConfigNode list{ConfigNode::Kind::kSequence, {}, {}, {}, {}};
     for (auto& item : value) list.items.push_back(Write(item));
     return list;
+  } else if constexpr (d::IsMap<T>::value) {
+    ConfigNode map{ConfigNode::Kind::kMap, {}, {}, {}, {}};
+    for (auto& [key, item] : value) map.entries.push_back({key, {}, Write(item)});
+    return map;
   } else if constexpr (d::IsVariant<T>::value) {
     return std::visit(
         [](auto& alternative) {
@@ -419,6 +442,11 @@ FieldInfo ConfigDescriber::Describe(T& value) {
     typename T::value_type element{};
     info.kind = "list";
     info.children.push_back(Describe(element));
+  } else if constexpr (d::IsMap<T>::value) {
+    typename T::mapped_type element{};
+    info.kind = "map by name";
+    info.children.push_back(Describe(element));
+    return info;
   } else if constexpr (d::IsArray<T>::value || std::is_same_v<T, Vec3>) {
     info.kind = fmt::format("list of {} numbers", value.size());
   } else if constexpr (d::IsVariant<T>::value) {

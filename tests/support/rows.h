@@ -10,6 +10,9 @@ namespace scoria::test {
 [[nodiscard]] inline logs::Row WholeRow() {
   logs::Row row;
   logs::ForEachGroup(row, [](auto& group) { group.emplace(); });
+  row.true_contacts->p_WF_m.emplace();
+  row.true_contacts->f_F_W_N.emplace();
+  row.true_contacts->trunk_force_N.emplace();
   row.plan->leg_mode.emplace();
   row.plan->foot_target_m.emplace();
   row.contacts->source.emplace();

@@ -21,7 +21,7 @@ struct ModelColumns {
 
   void Add(const logs::Row& r) {
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-    const logs::LearnedModel kUnknown{kNan, kNan, {kNan, kNan, kNan}};
+    const logs::LearnedModel kUnknown{kNan, std::nullopt, {kNan, kNan, kNan}};
     const bool operating = r.episode && r.episode->operating;
     const logs::LearnedModel* found =
         operating && !r.episode->fallen ? FindLearnedModel(r) : nullptr;
@@ -30,8 +30,9 @@ struct ModelColumns {
         r.true_mass.value_or(logs::TrueMassRow{kNan, {kNan, kNan, kNan}, kNan});
     time_s.push_back(r.time_s);
     learned_kg.push_back(learned.mass_kg);
-    low_kg.push_back(learned.mass_kg - learned.sigma_kg);
-    high_kg.push_back(learned.mass_kg + learned.sigma_kg);
+    const double sigma_kg = learned.sigma_kg.value_or(kNan);
+    low_kg.push_back(learned.mass_kg - sigma_kg);
+    high_kg.push_back(learned.mass_kg + sigma_kg);
     used_kg.push_back(operating && r.model ? r.model->used_mass_kg : kNan);
     true_kg.push_back(truth.mass_kg);
     learned_x_mm.push_back(1e3 * learned.p_BC_m[0]);

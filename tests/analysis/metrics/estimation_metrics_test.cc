@@ -177,7 +177,8 @@ TEST(Estimation, ErrorsAndConsistencyAreMeans) {
     row.estimate->P_tilt_v = CovarianceOfSideways(even ? 0.03 / 2.0 : 0.03 / std::sqrt(8.0));
     if (even) row.estimate->innovation = {9.0, 6};
     row.true_contacts->contact = {true, true, false, false};
-    row.true_contacts->f_F_W_N[2] = row.true_contacts->f_F_W_N[5] = 70.0;
+    logs::Array12& f_F_W_N = *row.true_contacts->f_F_W_N;
+    f_F_W_N[2] = f_F_W_N[5] = 70.0;
     row.contacts->f_F_W_N.value()[2] = row.contacts->f_F_W_N.value()[5] = 76.0;
     row.contacts->f_F_W_N.value()[8] = row.contacts->f_F_W_N.value()[11] = -3.0;
   };

@@ -22,7 +22,7 @@ std::vector<logs::Row> StandingRows(double length_s) {
     logs::Row row = test::WholeRow();
     row.time_s = t;
     row.truth->p_WB_m = {0.0, 0.0, 0.3};
-    row.true_contacts->f_F_W_N[2] = 40.0;
+    (*row.true_contacts->f_F_W_N)[2] = 40.0;
     rows.push_back(row);
   }
   return rows;
