@@ -110,7 +110,7 @@ class TopicFinder {
       if (same != topics.end()) {
         same->channels.push_back(i);
       } else {
-        topics.push_back({"", channel.topic, {i}, {}, spec.max_age_s});
+        topics.push_back({"", channel.topic, {i}, {}, spec.max_age_s, !spec.type.empty()});
       }
     }
     return topics;

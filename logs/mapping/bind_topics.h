@@ -16,6 +16,7 @@ struct BoundTopic {
   std::vector<std::size_t> channels;  // in LogContents::channels: all of that topic and type
   std::vector<std::size_t> signals;   // in Mapping::signals()
   std::optional<double> max_age_s = std::nullopt;
+  bool is_typed = false;  // the mapping says of which type it is
 };
 
 /// Which topics of a log a mapping reads.

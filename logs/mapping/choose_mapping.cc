@@ -14,7 +14,7 @@ namespace scoria::logs {
 namespace {
 
 /// How many signals a mapping gives; nothing if it does not fit. Columns of CSV files are looked
-/// up; of messages the type is enough.
+/// up; of messages the type must be given, and is enough.
 std::optional<std::size_t> CountSignals(const Mapping& mapping, const LogContents& contents,
                                         const TypeResolver& resolver) {
   try {
@@ -24,6 +24,7 @@ std::optional<std::size_t> CountSignals(const Mapping& mapping, const LogContent
       count += topic.signals.size();
       const bool is_csv =
           contents.channels[topic.channels.front()].message_encoding == kCsvEncoding;
+      if (!is_csv && !topic.is_typed) return std::nullopt;
       if (is_csv) MappedTopic(mapping, topic, contents, resolver).CheckFields();
     }
     if (count == 0) return std::nullopt;

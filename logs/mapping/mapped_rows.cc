@@ -93,6 +93,10 @@ class RowPass {
       topic.num_undecodable = mapped_.topics()[i].num_undecodable();
       topic.first_error = mapped_.topics()[i].first_error();
       topic.num_late = joiner_.num_late(i);
+      const std::string why = mapped_.topics()[i].refusal();
+      if (!why.empty())
+        add(LogProblem::Kind::kLost, fmt::format("{}: none of its {} messages can be decoded: {}",
+                                                 topic.topic, topic.num_messages, why));
       if (topic.num_undecodable > 0)
         add(LogProblem::Kind::kLost,
             fmt::format("{}: {} of {} messages cannot be decoded: {}", topic.topic,

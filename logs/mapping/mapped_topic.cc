@@ -152,7 +152,7 @@ MappedTopic::Times MappedTopic::ReadTimes(const Channel& channel) {
     const auto count = channel.reader->Integer(*channel.counter_slot);
     if (count)
       times.counter_ns =
-          std::llround(static_cast<double>(Unwrap(*count)) * time.counter_period_s * 1e9);
+          std::llround(static_cast<double>(Unwrap(*count)) * (time.counter_period_s * 1e9));
   }
   return times;
 }
@@ -226,6 +226,14 @@ std::optional<TopicSample> MappedTopic::Decode(const LogMessage& message) {
   for (SignalDecoder& decoder : channel.decoders)
     sample.signals.push_back(decoder.Decode(*channel.reader));
   return sample;
+}
+
+std::string MappedTopic::refusal() const {
+  for (const Channel& channel : channels_) {
+    if (num_messages_ > 0 && channel.type && channel.type->taken() == nullptr)
+      return channel.type->Report();
+  }
+  return "";
 }
 
 std::string MappedTopic::DescribeType() const {

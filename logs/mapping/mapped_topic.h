@@ -48,6 +48,8 @@ class MappedTopic {
   [[nodiscard]] std::uint64_t num_messages() const noexcept { return num_messages_; }
   [[nodiscard]] std::uint64_t num_undecodable() const noexcept { return num_undecodable_; }
   [[nodiscard]] const std::string& first_error() const noexcept { return first_error_; }
+  /// Why there is no definition that messages of the topic can be read by; empty if there is.
+  [[nodiscard]] std::string refusal() const;
   /// Which definition the messages follow: "built in"; empty for CSV.
   [[nodiscard]] std::string DescribeType() const;
   [[nodiscard]] std::string DescribeClock() const { return DescribeClocks(clock_, Evidence()); }

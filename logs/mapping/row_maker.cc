@@ -49,27 +49,34 @@ std::optional<PerLeg<T>> Legs(const SignalSet& s, Id id) {
   return out;
 }
 
-/// Motion of a body as a log has it, in W.
-struct Motion {
-  Vec3 p_WB, v_WB, w_WB;
-  Mat3 R_WB;
+/// A signal before and after a row; at the ends of the log and beside gaps the row is one of them.
+struct Neighbours {
+  SignalValues before{}, after{};
+  double between_s = 0.0;
 };
 
-/// The derivative of a position, by the places before and after.
-std::optional<Vec3> Derivative(const Instant& instant, Id id) {
+std::optional<Neighbours> NeighboursOf(const Instant& instant, Id id) {
   const std::int64_t half_ns = instant.derivative_ns(id);
-  const auto before = instant.At(id, -half_ns), after = instant.At(id, half_ns);
-  if (!before || !after || half_ns == 0) return std::nullopt;
-  return (ToVector(*after) - ToVector(*before)) / (2e-9 * static_cast<double>(half_ns));
+  const auto now = instant.At(id), before = instant.At(id, -half_ns),
+             after = instant.At(id, half_ns);
+  if (!now || (!before && !after) || half_ns == 0) return std::nullopt;
+  const double half_s = 1e-9 * static_cast<double>(half_ns);
+  return Neighbours{before.value_or(*now), after.value_or(*now),
+                    before && after ? 2.0 * half_s : half_s};
 }
 
-/// Angular velocity in W from the attitudes before and after.
+/// The derivative of a position.
+std::optional<Vec3> Derivative(const Instant& instant, Id id) {
+  const auto n = NeighboursOf(instant, id);
+  if (!n) return std::nullopt;
+  return (ToVector(n->after) - ToVector(n->before)) / n->between_s;
+}
+
+/// Angular velocity in W from an attitude.
 std::optional<Vec3> AngularDerivative(const Instant& instant, Id id) {
-  const std::int64_t half_ns = instant.derivative_ns(id);
-  const auto before = instant.At(id, -half_ns), after = instant.At(id, half_ns);
-  if (!before || !after || half_ns == 0) return std::nullopt;
-  const Mat3 R = ToRotation(*after) * ToRotation(*before).transpose();
-  return core::LogSo3(R) / (2e-9 * static_cast<double>(half_ns));
+  const auto n = NeighboursOf(instant, id);
+  if (!n) return std::nullopt;
+  return core::LogSo3(ToRotation(n->after) * ToRotation(n->before).transpose()) / n->between_s;
 }
 
 Vec3 InWorld(const SignalValues& v, VectorFrame frame, const Mat3& R_WB) {

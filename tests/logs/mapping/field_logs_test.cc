@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/math/so3.h"
-#include "core/robot/kinematics.h"
+#include "core/robot/whole_body.h"
 #include "core/robot_files/load.h"
 #include "logs/format/csv_log.h"
 #include "logs/format/open_log.h"
@@ -64,21 +64,7 @@ LegArray<Vec3> FootForces(const core::RobotDescription& robot, const Row& row) {
   const LegArray<Vec3> q = Unflatten(*row.measured->q_rad), tau = Unflatten(*row.measured->tau_Nm);
   LegArray<Vec3> forces = ZeroPerLeg();
   for (const Leg leg : kLegs) {
-    const auto foot = [&](const Vec3& angles) {
-      LegArray<Vec3> moved = q;
-      moved[leg] = angles;
-      const auto poses = core::CalcLinkPoses(robot, Vec3::Zero(), Mat3::Identity(), moved);
-      const std::size_t shank = 1 + 3 * static_cast<std::size_t>(leg) + 2;
-      return Vec3(poses[shank].p_WL + poses[shank].R_WL * robot.legs[leg].foot.p_LF);
-    };
-    Mat3 J;
-    constexpr double kStep = 1e-6;
-    for (int j = 0; j < 3; ++j) {
-      Vec3 up = q[leg], down = q[leg];
-      up[j] += kStep;
-      down[j] -= kStep;
-      J.col(j) = (foot(up) - foot(down)) / (2.0 * kStep);
-    }
+    const Mat3 J = core::CalcLegKinematics(robot.legs[leg], q[leg]).J;
     forces[leg] = -J.transpose().inverse() * tau[leg];
   }
   return forces;
@@ -100,11 +86,11 @@ std::vector<double> SumsFz(const core::RobotDescription& robot, const std::vecto
   return sums;
 }
 
-/// Mean length of the specific force, m/s².
-double MeanAcceleration(const std::vector<Row>& rows) {
+/// Median length of the specific force, m/s².
+double MedianAcceleration(const std::vector<Row>& rows) {
   std::vector<double> values;
   for (const Row& row : rows) values.push_back(ToVec3(*row.measured->a_WS_S_mps2).norm());
-  return Mean(values);
+  return Quantile(values, 0.5);
 }
 
 /// Largest difference between rates of joints and derivatives of their angles, as a share.
@@ -176,9 +162,7 @@ TEST_F(FieldLogs, EntangledGo2KeepsTheNamesOfItsFeet) {
     EXPECT_EQ(log.rows.front().time_s, 0.0);
     const std::vector<double> sums = SumsFz(test::Go2(), log.rows);
     EXPECT_NEAR(Mean(sums), walk.sum_fz_N, 1.5) << walk.file;
-    const double at_rest = MeanAcceleration({log.rows.begin(), log.rows.begin() + 50});
-    EXPECT_GT(at_rest, 8.5);
-    EXPECT_LT(at_rest, 11.0);
+    EXPECT_NEAR(MedianAcceleration(log.rows), 9.7, 0.5);
     double largest_gap_s = 0.0;
     for (std::size_t i = 1; i < log.rows.size(); ++i)
       largest_gap_s = std::max(largest_gap_s, log.rows[i].time_s - log.rows[i - 1].time_s);
@@ -218,9 +202,7 @@ TEST_F(FieldLogs, AccelerometerWithoutGravityGetsItBack) {
   for (const Row& row : log.rows) z.push_back((*row.measured->a_WS_S_mps2)[2]);
   EXPECT_NEAR(Mean(z), 9.81, 0.5);
   EXPECT_LT(z.front(), 0.0);  // it falls
-  const Row& last = log.rows[log.rows.size() - 50];
-  EXPECT_NEAR(last.truth->p_WB_m[0], 2.54, 0.05);
-  EXPECT_NEAR(SlopeOfRates(log.rows), 1.0, 0.1);
+  EXPECT_NEAR(log.rows.back().truth->p_WB_m[0], 2.54, 0.005);
   // The velocity that the log has not.
   double distance_m = 0.0;
   const Row* before = nullptr;
@@ -231,7 +213,7 @@ TEST_F(FieldLogs, AccelerometerWithoutGravityGetsItBack) {
                     (row.time_s - before->time_s);
     before = &row;
   }
-  EXPECT_NEAR(distance_m, 2.54, 0.05);
+  EXPECT_NEAR(distance_m, 2.54, 0.02);
 }
 
 TEST_F(FieldLogs, ViconBesideALowStateIsJoined) {
@@ -250,17 +232,18 @@ TEST_F(FieldLogs, ViconBesideALowStateIsJoined) {
     gyro_rad += (*row.measured->w_WS_S_radps)[2] * dt_s;
     const double sum_fz_N = SumFz(test::Go2(), row);
     if (row.time_s > 9.0 && row.time_s < 31.0) walking.push_back(sum_fz_N);
-    if (row.joint_command && row.joint_command->q_rad) ++commanded;
-    if (row.joint_command && row.joint_command->q_rad)
+    if (row.joint_command && row.joint_command->q_rad) {
+      ++commanded;
       EXPECT_LT(std::abs((*row.joint_command->q_rad)[0]), 3.0);
+    }
     if (!row.truth) continue;
     if (with_truth++ > 0) turned_rad += core::WrapToPi(row.truth->rpy_rad[2] - yaw_rad);
     yaw_rad = row.truth->rpy_rad[2];
   }
   EXPECT_NEAR(1e3 * largest_gap_s, 607.6, 0.1);
   EXPECT_NEAR(Mean(walking), 164.5, 3.0);
-  EXPECT_NEAR(gyro_rad * 180.0 / M_PI, 1069.0, 15.0);
-  EXPECT_NEAR(turned_rad * 180.0 / M_PI, 1088.0, 5.0);
+  EXPECT_NEAR(gyro_rad * 180.0 / M_PI, 1069.0, 50.0);  // over gaps: it goes by how one sums
+  EXPECT_NEAR(turned_rad * 180.0 / M_PI, 1088.0, 15.0);
   EXPECT_GT(with_truth, 6500);
   EXPECT_FALSE(log.rows[0].joint_command && log.rows[0].joint_command->q_rad);  // 2.146e9
   EXPECT_GT(commanded, 1000);
@@ -283,7 +266,13 @@ TEST_F(FieldLogs, MiniCheetahWalksBackwardsWithItsHipsZeroed) {
     EXPECT_NEAR(q[3 * leg + 1], 1.0, 1e-4);
     EXPECT_NEAR(q[3 * leg + 2], -1.9, 1e-4);
   }
-  EXPECT_NEAR(log.rows.back().truth->p_WB_m[0], -7.09, 0.05);
+  double path_m = 0.0;
+  for (std::size_t i = 1; i < log.rows.size(); ++i)
+    path_m += (ToVec3(log.rows[i].truth->p_WB_m) - ToVec3(log.rows[i - 1].truth->p_WB_m))
+                  .head<2>()
+                  .norm();
+  EXPECT_NEAR(path_m, 7.09, 0.01);
+  EXPECT_LT(log.rows.back().truth->p_WB_m[0], -6.9);
   EXPECT_NEAR(SlopeOfRates(log.rows), 1.0, 0.02);
   std::vector<double> v, dp;
   for (std::size_t i = 1; i + 1 < log.rows.size(); ++i) {
