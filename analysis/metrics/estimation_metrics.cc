@@ -223,7 +223,7 @@ void EstimationAccumulator::AddRow(const logs::Row& row) {
   segment_ = row.episode->segment;
   if (!walking) return;
   contact_.AddRow(row);
-  if (row.true_contacts && row.contacts && row.contacts->f_F_W_N)
+  if (row.true_contacts && row.true_contacts->f_F_W_N && row.contacts && row.contacts->f_F_W_N)
     AddForces(*row.true_contacts, *row.contacts->f_F_W_N);
   AddConsistency(row);
   if (row.truth && row.estimate) AddErrors(*row.truth, *row.estimate);
@@ -261,7 +261,7 @@ void EstimationAccumulator::AddForces(const logs::TrueContactsRow& truth,
                                       const logs::Array12& f_F_W_N) noexcept {
   for (std::size_t leg = 0; leg < 4; ++leg) {
     const std::size_t z = 3 * leg + 2;
-    (truth.contact[leg] ? force_stance_ : force_swing_).Add(f_F_W_N[z] - truth.f_F_W_N[z]);
+    (truth.contact[leg] ? force_stance_ : force_swing_).Add(f_F_W_N[z] - (*truth.f_F_W_N)[z]);
   }
 }
 

@@ -61,9 +61,10 @@ void MetricsAccumulator::AddTimes(const logs::SolveTimesRow& times) {
 }
 
 void MetricsAccumulator::AddPeakForce(const logs::TrueContactsRow& contacts) {
+  if (!contacts.f_F_W_N) return;
   double peak_N = metrics_.peak_foot_force_N.value_or(0.0);
   for (std::size_t leg = 0; leg < 4; ++leg) {
-    const double* f = &contacts.f_F_W_N[3 * leg];
+    const double* f = &(*contacts.f_F_W_N)[3 * leg];
     peak_N = std::max(peak_N, std::sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]));
   }
   metrics_.peak_foot_force_N = peak_N;

@@ -11,12 +11,15 @@
 #include "app/scenario/config_kinds.h"
 #include "app/scenario/scenario.h"
 #include "core/demand.h"
+#include "logs/mapping/mapping_file.h"
 
 namespace scoria::app {
 namespace {
 
 using core::FieldInfo;
 using nlohmann::json;
+
+constexpr const char* kMapByName = "map by name";
 
 std::string Range(const FieldInfo& f) {
   if (!f.choices.empty()) return fmt::format("{}", fmt::join(f.choices, ", "));
@@ -30,9 +33,25 @@ std::string DefaultText(const FieldInfo& f) {
   return f.scale.empty() ? f.default_value : fmt::format("{} ∝ {}", f.default_value, f.scale);
 }
 
+/// What the keys of a signal's source allow beyond those that all have: "unit: rad, deg".
+std::string ChoicesWithin(const FieldInfo& f) {
+  std::string text;
+  for (const FieldInfo& child : f.children) {
+    if (!child.choices.empty())
+      text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", child.key,
+                          fmt::join(child.choices, ", "));
+  }
+  return text;
+}
+
 void AddRows(const std::vector<FieldInfo>& fields, const std::string& prefix, std::string& out) {
   for (const FieldInfo& f : fields) {
     const std::string key = prefix + f.key;
+    if (f.has_short_form) {
+      out += fmt::format("| `{}` | source | {} | {} | {} |\n", key, f.required ? "required" : "",
+                         ChoicesWithin(f), f.doc);
+      continue;
+    }
     const bool nested = !f.children.empty();
     out += fmt::format("| `{}` | {} | {} | {} | {} |\n", key, f.kind,
                        f.required                     ? "required"
@@ -46,6 +65,8 @@ void AddRows(const std::vector<FieldInfo>& fields, const std::string& prefix, st
       }
     } else if (f.kind == "list") {
       AddRows(f.children.front().children, key + "[].", out);
+    } else if (f.kind == kMapByName) {
+      AddRows(f.children.front().children, key + ".NAME.", out);
     } else {
       AddRows(f.children, key + ".", out);
     }
@@ -95,13 +116,17 @@ json Schema(const FieldInfo& f) {
   if (f.kind == "list") {
     schema = ListSchema(Schema(f.children.front()));
   } else if (f.kind.starts_with("list")) {
-    schema = ListSchema({{"type", "number"}});
+    schema = ListSchema({{"type", f.kind.ends_with("strings") ? "string" : "number"}});
   }
   if (f.kind == "integer" || f.kind == "number") {
     if (std::isfinite(f.min)) schema["minimum"] = f.min;
     if (std::isfinite(f.max)) schema["maximum"] = f.max;
   }
   if (f.kind == "struct") schema = ObjectSchema(f.children);
+  if (f.kind == kMapByName)
+    schema = {{"type", "object"}, {"additionalProperties", Schema(f.children.front())}};
+  if (f.has_short_form)
+    schema = {{"anyOf", {{{"type", "string"}}, ListSchema({{"type", "string"}}), schema}}};
   if (f.kind == "variant") schema = VariantSchema(f);
   if (!f.doc.empty()) schema["description"] = f.doc;
   return schema;
@@ -124,6 +149,14 @@ std::string ConfigMarkdown() {
   AddRows(core::DescribeConfig<Scenario>().children, "", out);
   out += fmt::format("\n# Campaign keys\n\n{}", kHeader);
   AddRows(core::DescribeConfig<CampaignFile>().children, "", out);
+  out += fmt::format(
+      "\n# Mapping keys\n\nOf mappings from recorded messages to rows; "
+      "[mappings.md](mappings.md) explains them. A source is the path of a field or "
+      "the name of a column,\na list of them, or a map:\n\n{}",
+      kHeader);
+  AddRows(core::DescribeConfig<logs::FramedSource<logs::SpeedUnit>>().children, "SOURCE.", out);
+  out += "\n" + std::string(kHeader);
+  AddRows(core::DescribeConfig<logs::MappingFile>().children, "", out);
   return out;
 }
 

@@ -6,6 +6,7 @@
 
 #include "app/campaign/campaign_file.h"
 #include "app/scenario/scenario.h"
+#include "logs/mapping/mapping_file.h"
 
 namespace scoria::app {
 namespace {
@@ -30,6 +31,7 @@ constexpr std::array kKinds = {
     ConfigKind{"controller", "controller: of a scenario",
                &DescribeConfig<controller::ControllerParams>},
     ConfigKind{"operator", "operator: of a scenario", &DescribeOperator},
+    ConfigKind{"mapping", "--mapping of a log", &DescribeConfig<logs::MappingFile>},
 };
 
 bool IsKnown(const std::vector<FieldInfo>& fields, const std::string& key) {

@@ -33,6 +33,7 @@ struct FieldInfo {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
   bool required = false;
+  bool has_short_form = false;       // may be a string, or a list of strings, for one of its keys
   std::vector<std::string> choices;  // of an enum
   std::vector<FieldInfo>
       children;  // of a struct; of a variant one per alternative; of a list or map its element
@@ -448,7 +449,9 @@ FieldInfo ConfigDescriber::Describe(T& value) {
     info.children.push_back(Describe(element));
     return info;
   } else if constexpr (d::IsArray<T>::value || std::is_same_v<T, Vec3>) {
-    info.kind = fmt::format("list of {} numbers", value.size());
+    using Element = std::decay_t<decltype(value[0])>;
+    constexpr bool kNumbers = std::is_arithmetic_v<Element>;
+    info.kind = fmt::format("list of {} {}", value.size(), kNumbers ? "numbers" : "strings");
   } else if constexpr (d::IsVariant<T>::value) {
     info.kind = "variant";
     info.default_value = std::visit([](auto& a) { return std::string(a.kType); }, value);
@@ -470,6 +473,7 @@ FieldInfo ConfigDescriber::Describe(T& value) {
     ConfigDescriber describer;
     value.Serialize(describer);
     info.kind = "struct";
+    info.has_short_form = requires { T::kScalarKey; };
     info.children = describer.fields_;
     return info;
   }

@@ -103,7 +103,10 @@ TEST(Recorder, RowsOfTheLogAreTheRowsOfTheEpisode) {
   EXPECT_EQ(logs::ForEachRow(path, [&](const logs::Row& row) { EXPECT_TRUE(row == rows.at(i++)); }),
             "");
   ASSERT_EQ(i, 1500u);
-  EXPECT_TRUE(logs::GroupsOf(rows.back()).all());
+  logs::RowGroups groups = logs::GroupsOf(rows.back());
+  EXPECT_FALSE(groups[static_cast<std::size_t>(logs::RowGroup::kJointCommand)])
+      << "/joint_cmd has it";
+  EXPECT_TRUE(groups.set(static_cast<std::size_t>(logs::RowGroup::kJointCommand)).all());
   EXPECT_TRUE(rows.back().estimate->P_tilt_v.has_value());
   EXPECT_TRUE(rows.back().contacts->sensor.has_value());
   EXPECT_FALSE(rows.back().model->learned.has_value()) << "nothing adapts";

@@ -79,17 +79,16 @@ std::string KindOfFolder(const fs::path& file) {
   if (folder == "robots/payloads") return "payload";
   if (folder == "scenarios/controllers") return "controller";
   if (folder == "scenarios/operators") return "operator";
-  const std::map<std::string, std::string> tops = {{"robots", "robot"},
-                                                   {"terrains", "terrain"},
-                                                   {"scenarios", "scenario"},
-                                                   {"campaigns", "campaign"},
-                                                   {"tests", "robot"}};
+  const std::map<std::string, std::string> tops = {
+      {"robots", "robot"},       {"terrains", "terrain"}, {"scenarios", "scenario"},
+      {"campaigns", "campaign"}, {"mappings", "mapping"}, {"tests", "robot"}};
   return tops.at(folder.substr(0, folder.find('/')));
 }
 
 std::vector<fs::path> ShippedFiles() {
   std::vector<fs::path> files;
-  for (const char* folder : {"robots", "terrains", "scenarios", "campaigns", "tests/data/robots"}) {
+  for (const char* folder :
+       {"robots", "terrains", "scenarios", "campaigns", "mappings", "tests/data/robots"}) {
     for (const auto& entry : fs::recursive_directory_iterator(test::SourcePath(folder))) {
       if (entry.path().extension() == ".yaml") files.push_back(entry.path());
     }
@@ -127,6 +126,9 @@ TEST(Schema, UnknownKeysAndWrongValuesAreCaught) {
       {"payload", "{name: x, mass: 3}"},
       {"controller", "{gait: {type: ags, low: {}}}"},
       {"operator", "{type: route, sped_mps: 1}"},
+      {"mapping", "{joints: {q: position, qq: velocity}}"},
+      {"mapping", "{joints: {q: {field: position, unit: degrees}}}"},
+      {"mapping", "{topics: {state: {typ: a/msg/B}}}"},
   };
   for (const auto& [kind, yaml] : wrong)
     EXPECT_NE(Checker(kind).Problem(YAML::Load(yaml)), "") << kind << ": " << yaml;

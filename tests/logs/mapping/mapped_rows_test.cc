@@ -2,13 +2,13 @@
 #include "logs/mapping/mapped_rows.h"
 
 #include <cmath>
-#include <cstring>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "logs/mapping/choose_mapping.h"
 #include "logs/messages/scoria.h"
+#include "tests/logs/mapping/field_messages.h"
 #include "tests/logs/ros/cdr_writer.h"
 #include "tests/support/memory_log.h"
 
@@ -16,11 +16,16 @@ namespace scoria::logs {
 namespace {
 
 using test::CdrWriter;
+using test::JointState;
+using test::kLittleEndian;
+using test::LowCmd;
+using test::LowState;
 using test::MemoryLog;
+using test::WriteStamp;
+using test::ZeroMessage;
 
 constexpr std::int64_t kMs = 1'000'000;
-constexpr std::int64_t kStart_ns = 1'764'707'760'000'000'000;  // of a recording
-constexpr int kLittleEndian = 0x0001;
+constexpr std::int64_t kStart_ns = test::kRecordingStart_ns;
 
 struct Mapped {
   std::vector<Row> rows;
@@ -34,53 +39,6 @@ Mapped ReadRows(MemoryLog& log) {
   out.report = ForEachMappedRow(log, mapping, TypeResolver(),
                                 [&](const Row& row) { out.rows.push_back(row); });
   return out;
-}
-
-void WriteStamp(CdrWriter& out, std::int64_t time_ns, const char* frame) {
-  out.U32(static_cast<std::uint64_t>(time_ns / 1'000'000'000))
-      .U32(static_cast<std::uint64_t>(time_ns % 1'000'000'000))
-      .Text(frame);
-}
-
-// --- Unitree: bytes at the places that data/msgs/README_field_messages.md tells.
-
-template <class T>
-void Put(Bytes& bytes, std::size_t at, T value) {
-  std::memcpy(bytes.data() + at, &value, sizeof value);
-}
-
-Bytes ZeroMessage(std::size_t size) {
-  Bytes bytes(size);
-  bytes[1] = std::byte{1};
-  return bytes;
-}
-
-/// Motor i has q = 0.1 (i + 1), foot i a force of 10 (i + 1).
-Bytes LowState(std::uint32_t tick) {
-  Bytes bytes = ZeroMessage(1180);
-  const std::array<float, 4> wxyz = {std::cos(0.1f), std::sin(0.1f), 0.0f, 0.0f};
-  for (std::size_t k = 0; k < 4; ++k) Put(bytes, 28 + 4 * k, wxyz[k]);
-  for (std::size_t k = 0; k < 3; ++k) Put(bytes, 44 + 4 * k, static_cast<float>(k + 1));
-  Put(bytes, 56 + 8, 9.6f);
-  for (std::size_t i = 0; i < 12; ++i) {
-    Put(bytes, 84 + 48 * i, 0.1f * static_cast<float>(i + 1));
-    Put(bytes, 88 + 48 * i, static_cast<float>(i));
-    Put(bytes, 96 + 48 * i, -static_cast<float>(i));
-  }
-  for (std::size_t i = 0; i < 4; ++i)
-    Put(bytes, 1084 + 2 * i, static_cast<std::int16_t>(10 * (i + 1)));
-  Put(bytes, 1100, tick);
-  Put(bytes, 1156, 28.5f);
-  return bytes;
-}
-
-Bytes LowCmd(float q) {
-  Bytes bytes = ZeroMessage(812);
-  for (std::size_t i = 0; i < 12; ++i) {
-    Put(bytes, 28 + 36 * i, q);
-    Put(bytes, 28 + 36 * i + 12, 40.0f);
-  }
-  return bytes;
 }
 
 TEST(MappedRows, Go2IsInOurOrderAndItsTickUndoesBursts) {
@@ -119,22 +77,6 @@ TEST(MappedRows, Go2IsInOurOrderAndItsTickUndoesBursts) {
   EXPECT_FALSE(mapped.rows[100].joint_command->q_rad);  // 2.146e9: no command
   EXPECT_EQ((*mapped.rows[100].joint_command->kp_Nm_per_rad)[0], 40.0);
   EXPECT_EQ((*mapped.rows[350].joint_command->q_rad)[0], 0.5);
-}
-
-// --- ROS 2's own messages.
-
-Bytes JointState(std::int64_t time_ns, const std::vector<std::string>& names,
-                 const std::vector<double>& positions) {
-  CdrWriter out(kLittleEndian);
-  WriteStamp(out, time_ns, "");
-  out.U32(names.size());
-  for (const std::string& name : names) out.Text(name);
-  for (const double scale : {1.0, 10.0}) {
-    out.U32(positions.size());
-    for (const double p : positions) out.F64(scale * p);
-  }
-  out.U32(0);  // no effort
-  return out.bytes();
 }
 
 Bytes Odometry(std::int64_t time_ns, double yaw_rad) {
