@@ -79,7 +79,7 @@ class TopicFinder {
       binding_.topics.push_back(*topic);
       binding_.topics.back().name = name;
     } else {
-      binding_.absent.push_back(name);
+      binding_.absent.push_back(DescribeLack(name, spec->second));
     }
     found_.emplace_back(name, at);
     return at;
@@ -135,13 +135,24 @@ class TopicFinder {
       }
     }
     if (fitting.size() == 1) return fitting.front();
-    if (fitting.empty() && spec.optional) return std::nullopt;
+    if (spec.optional) return std::nullopt;
     if (fitting.empty()) throw mapping_.ErrorAt(key, DescribeAbsence(spec));
-    Names names;
-    for (const BoundTopic& topic : fitting) names.push_back(topic.topic);
     throw mapping_.ErrorAt(key, fmt::format("the log has several such topics: {}; names: [...] "
                                             "says which",
-                                            fmt::join(names, ", ")));
+                                            fmt::join(NamesOf(fitting), ", ")));
+  }
+
+  static Names NamesOf(const std::vector<BoundTopic>& topics) {
+    Names names;
+    for (const BoundTopic& topic : topics) names.push_back(topic.topic);
+    return names;
+  }
+
+  /// Of an optional topic that is not taken.
+  [[nodiscard]] std::string DescribeLack(const std::string& name, const TopicSpec& spec) const {
+    const Names names = NamesOf(Fitting(spec));
+    if (names.empty()) return name;
+    return fmt::format("single {} ({} are there)", name, fmt::join(names, ", "));
   }
 
   [[nodiscard]] std::string DescribeAbsence(const TopicSpec& spec) const {

@@ -20,12 +20,15 @@ class MemoryLog final : public logs::LogSource {
     contents_.format = "a log in memory";
   }
 
-  /// A channel of CDR messages without a definition, as bags of old have them.
-  std::size_t AddChannel(const std::string& topic, const std::string& type) {
+  /// A channel of CDR messages; without a definition, as bags of old have them, unless a text of
+  /// ros2msg is given.
+  std::size_t AddChannel(const std::string& topic, const std::string& type,
+                         const std::string& definition = "") {
     logs::LogChannel& channel = contents_.channels.emplace_back();
     channel.topic = topic;
     channel.type_name = type;
     channel.message_encoding = "cdr";
+    if (!definition.empty()) channel.schema = {"ros2msg", definition};
     return contents_.channels.size() - 1;
   }
   void AddMetadata(const std::string& name, const logs::LogMetadata& metadata) {

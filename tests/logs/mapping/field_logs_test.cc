@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/files.h"
 #include "core/math/so3.h"
 #include "core/robot/whole_body.h"
 #include "core/robot_files/load.h"
@@ -289,6 +290,9 @@ TEST_F(FieldLogs, SpiritGoesByItsHeaderAndItsFlippedAccelerometerIsTurned) {
   EXPECT_EQ(log.report.mapping, "ros1_imu_csv");
   ASSERT_EQ(log.rows.size(), 3053u);
   EXPECT_TRUE(log.report.topics[0].clock.starts_with("header (steps of 10 ms, irregularity 0.0"))
+      << log.report.topics[0].clock;
+  const std::string page = core::ReadText(test::SourcePath("docs/mappings.md"));
+  EXPECT_NE(page.find("\n" + log.report.topics[0].clock + "\n"), std::string::npos)
       << log.report.topics[0].clock;
   std::vector<double> steps, z;
   for (std::size_t i = 0; i < log.rows.size(); ++i) {

@@ -142,6 +142,20 @@ TEST(MappedRows, TwoTopicsOfATypeAreNamed) {
   }
 }
 
+TEST(MappedRows, OptionalTopicsOfATypeAreNotGuessedAt) {
+  MemoryLog log;
+  const std::size_t state = log.AddChannel("/lowstate", "unitree_go/msg/LowState");
+  (void)log.AddChannel("/vicon/a/a", "vicon_receiver/msg/Position");
+  (void)log.AddChannel("/vicon/b/b", "vicon_receiver/msg/Position");
+  for (std::uint32_t i = 0; i < 5; ++i) log.Add(state, kStart_ns + i * kMs, LowState(i));
+  const Mapped mapped = ReadRows(log);
+  EXPECT_EQ(mapped.report.mapping, "unitree_go2");
+  EXPECT_EQ(mapped.report.absent,
+            (std::vector<std::string>{"lowcmd", "sport",
+                                      "single vicon (/vicon/a/a, /vicon/b/b are there)"}));
+  EXPECT_EQ(mapped.rows.size(), 5u);
+}
+
 // --- One type name, two layouts.
 
 /// @param with_header  as the type is since 2025-11.

@@ -8,6 +8,7 @@
 #include "logs/mapping/choose_mapping.h"
 #include "logs/mapping/field_pattern.h"
 #include "logs/mapping/mapped_rows.h"
+#include "tests/support/memory_log.h"
 #include "tests/support/robots.h"
 
 namespace scoria::logs {
@@ -165,6 +166,66 @@ TEST(MappingFile, ClocksThatAreNotThereAreNamed) {
             "m.yaml:1:17: time.counter: no topic has counts in \"m\"");
   EXPECT_EQ(ErrorOf("time: {clock: header, row_period_s: 1}\n" + imu, csv.log()),
             "m.yaml:1:15: time.clock: walk has no header stamps");
+}
+
+/// A log of the robot of docs/mappings.md.
+test::MemoryLog MyRobot() {
+  test::MemoryLog log;
+  const std::size_t state =
+      log.AddChannel("/state", "my_robot/msg/State",
+                     "Motor[12] motor\nfloat64[12] torque\n================================\n"
+                     "MSG: my_robot/Motor\nfloat64 angle\nfloat64 rpm\n");
+  (void)log.AddChannel("/imu", "sensor_msgs/msg/Imu");
+  Bytes message(4 + 36 * 8);
+  message[1] = std::byte{1};
+  for (int i = 0; i < 3; ++i) log.Add(state, i * 1'000'000, message);
+  return log;
+}
+
+std::string PageText() {
+  std::ifstream in(test::SourcePath("docs/mappings.md"));
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// The blocks of YAML on the page.
+Texts Examples(const std::string& page) {
+  Texts examples;
+  const std::string open = "```yaml\n";
+  for (std::size_t at = page.find(open); at != std::string::npos; at = page.find(open, at + 1)) {
+    const std::size_t from = at + open.size();
+    examples.push_back(page.substr(from, page.find("```", from) - from));
+  }
+  return examples;
+}
+
+TEST(MappingsPage, ExamplesAreMappingsThatWork) {
+  const Texts examples = Examples(PageText());
+  ASSERT_EQ(examples.size(), 2u);
+  std::string header = "time", row;
+  for (const char* what : {"pos", "vel"}) {
+    for (const char* leg : {"LF", "RF", "LH", "RH"}) {
+      for (const char* joint : {"HAA", "HFE", "KFE"})
+        header += std::string(",") + leg + "_" + joint + "_" + what;
+    }
+  }
+  for (int i = 0; i < 24 + 6; ++i) row += ",1";
+  const CsvFile csv(header + ",ax,ay,az,gx,gy,gz\n0" + row + "\n1" + row + "\n");
+  EXPECT_EQ(ErrorOf(examples[0], csv.log()), "");
+  test::MemoryLog log = MyRobot();
+  EXPECT_EQ(ErrorOf(examples[1], &log), "");
+}
+
+TEST(MappingsPage, ShowsWhatIsSaidOfWrongMappings) {
+  const std::string page = PageText();
+  test::MemoryLog log = MyRobot();
+  for (const char* yaml : {"joints:\n  topic: /state\n  q: motr[{i}].angle\n",
+                           "joints:\n  topic: /state\n  q: motor[{i}].angle\n  qd: {field: "
+                           "\"motor[{i}].rpm\", unit: degs}\n",
+                           "topics:\n  state: {type: my_robot/msg/Stat}\njoints: {q: motor}\n"}) {
+    const std::string error = ErrorOf(yaml, &log);
+    EXPECT_NE(page.find(error), std::string::npos) << error;
+    EXPECT_NE(error, "");
+  }
 }
 
 TEST(ChooseMapping, SaysWhenNoneOrTwoFit) {
