@@ -41,17 +41,6 @@ struct CsvFile {
   std::size_t channel = 0;
 };
 
-LogChannel MakeChannel(const fs::path& path, const CsvDialect& dialect) {
-  LogChannel channel;
-  channel.topic = path.stem().string();
-  channel.message_encoding = kCsvEncoding;
-  channel.schema = {std::string(kCsvEncoding), dialect.header};
-  channel.metadata[kSeparatorKey] = NameOfSeparator(dialect.separator);
-  channel.metadata[kColumnsKey] = fmt::to_string(dialect.columns);
-  if (dialect.clock) channel.metadata[kClockKey] = fmt::to_string(dialect.clock->column);
-  return channel;
-}
-
 /// Goes through the lines of data of one file.
 class LineCursor {
  public:
@@ -225,7 +214,7 @@ class CsvLog final : public LogSource {
       throw std::runtime_error(fmt::format("{}: is no table of numbers", path.string()));
     file.dialect = *dialect;
     file.channel = contents_.channels.size();
-    contents_.channels.push_back(MakeChannel(path, *dialect));
+    contents_.channels.push_back(MakeCsvChannel(path.stem().string(), *dialect));
     const std::string& topic = contents_.channels.back().topic;
     const auto has_topic = [&](const LogChannel& c) { return c.topic == topic; };
     if (std::count_if(contents_.channels.begin(), contents_.channels.end(), has_topic) > 1)
@@ -249,6 +238,17 @@ class CsvLog final : public LogSource {
 
 }  // namespace
 
+LogChannel MakeCsvChannel(const std::string& topic, const CsvDialect& dialect) {
+  LogChannel channel;
+  channel.topic = topic;
+  channel.message_encoding = kCsvEncoding;
+  channel.schema = {std::string(kCsvEncoding), dialect.header};
+  channel.metadata[kSeparatorKey] = NameOfSeparator(dialect.separator);
+  channel.metadata[kColumnsKey] = fmt::to_string(dialect.columns);
+  if (dialect.clock) channel.metadata[kClockKey] = fmt::to_string(dialect.clock->column);
+  return channel;
+}
+
 CsvLayout CsvLayoutOf(const LogChannel& channel) {
   CsvLayout layout;
   const std::string& separator = channel.metadata.at(kSeparatorKey);
@@ -271,7 +271,8 @@ std::vector<fs::path> CsvFilesIn(const fs::path& folder) {
     const std::string name = entry.path().filename().string();
     const std::string bare = name.ends_with(".zstd") ? name.substr(0, name.size() - 5) : name;
     if (bare.ends_with(".db3") || bare.ends_with(".mcap")) return {};
-    if (name.ends_with(".csv") && entry.is_regular_file()) files.push_back(entry.path());
+    const bool is_table = name.ends_with(".csv") && entry.is_regular_file() && IsCsv(entry.path());
+    if (is_table) files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
   return files;

@@ -26,11 +26,15 @@ struct CsvLayout {
 /// @pre channel.message_encoding is kCsvEncoding.
 [[nodiscard]] CsvLayout CsvLayoutOf(const LogChannel& channel);
 
+/// The channel of a table, without its messages.
+[[nodiscard]] LogChannel MakeCsvChannel(const std::string& topic, const CsvDialect& dialect);
+
 /// Whether a file is a table of numbers, by its content.
 /// Errors, here and below: core::FileError.
 [[nodiscard]] bool IsCsv(const std::filesystem::path& path);
 
-/// The CSV files of a folder, by name, if they are a log: there are some, and no bag.
+/// The tables of numbers among the .csv files of a folder, by name; none where a bag is beside
+/// them.
 [[nodiscard]] std::vector<std::filesystem::path> CsvFilesIn(const std::filesystem::path& folder);
 
 /// Opens CSV files as one log: a channel for each, named as the file without its extension, a

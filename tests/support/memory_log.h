@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "logs/format/cdr.h"
+#include "logs/format/csv_log.h"
 #include "logs/format/log_source.h"
 
 namespace scoria::test {
@@ -30,6 +31,9 @@ class MemoryLog final : public logs::LogSource {
     channel.message_encoding = "cdr";
     if (!definition.empty()) channel.schema = {"ros2msg", definition};
     return contents_.channels.size() - 1;
+  }
+  void AddTable(const std::string& topic, const logs::CsvDialect& dialect) {
+    contents_.channels.push_back(logs::MakeCsvChannel(topic, dialect));
   }
   void AddMetadata(const std::string& name, const logs::LogMetadata& metadata) {
     contents_.metadata[name] = metadata;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 #include <numeric>
 #include <optional>
 
@@ -255,6 +256,31 @@ TEST_F(FieldLogs, ViconBesideALowStateIsJoined) {
   }
   EXPECT_NEAR(Quantile(heights, 0.5), 0.43, 0.02);
   EXPECT_NEAR(log.rows[0].measured->a_WS_S_mps2->at(2), 9.51, 0.01);
+}
+
+/// A database of Humble, without definitions; beside it what its authors made of it.
+TEST_F(FieldLogs, ViconBagHasTheValuesOfItsExport) {
+  const MappedTestLog log = ReadRows({"go2_vicon_orl/test_6_vicon_bag"});
+  EXPECT_EQ(log.report.mapping, "vicon_receiver");
+  EXPECT_TRUE(log.report.topics[0].type.starts_with("built in, with header"));
+  EXPECT_TRUE(log.report.topics[0].clock.starts_with("header ")) << log.report.topics[0].clock;
+  std::ifstream csv(fs::path(std::getenv("SCORIA_REFERENCE_DATA")) /
+                    "logs/go2_vicon_orl/test_6_vicon_bag/vicon_history.csv");
+  ASSERT_EQ(log.rows.size(), 7396u);
+  CsvSplitter splitter(',');
+  for (const Row& row : log.rows) {
+    std::string line;
+    ASSERT_TRUE(std::getline(csv, line));
+    const auto fields = splitter.Split(line);
+    const auto number = [&](std::size_t column) { return ParseCsvNumber(fields[column]).value(); };
+    const std::int64_t stamp_ns = ParseCsvTime(fields[0], 1).value() - log.report.start_ns.value();
+    EXPECT_NEAR(row.time_s, 1e-9 * static_cast<double>(stamp_ns), 1e-9);
+    const Mat3 R_WB =
+        Quat(number(4), number(5), number(6), number(7)).normalized().toRotationMatrix();
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(row.truth->p_WB_m[k], 1e-3 * number(1 + k), 1e-5);  // six digits
+    EXPECT_LT((core::RotationFromRpy(ToVec3(row.truth->rpy_rad)) - R_WB).norm(), 1e-4);
+  }
 }
 
 TEST_F(FieldLogs, MiniCheetahWalksBackwardsWithItsHipsZeroed) {
