@@ -152,7 +152,7 @@ std::string ConfigMarkdown() {
   out += fmt::format(
       "\n# Mapping keys\n\nOf mappings from recorded messages to rows; "
       "[mappings.md](mappings.md) explains them. A source is the path of a field or "
-      "the name of a column,\na list of them, or a map:\n\n{}",
+      "the name of a column,\na list of them, or a map, here of a velocity:\n\n{}",
       kHeader);
   AddRows(core::DescribeConfig<logs::FramedSource<logs::SpeedUnit>>().children, "SOURCE.", out);
   out += "\n" + std::string(kHeader);

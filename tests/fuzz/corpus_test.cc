@@ -18,9 +18,9 @@ using Target = void (*)(std::span<const std::uint8_t>);
 
 TEST(FuzzCorpus, EveryTargetTakesItsCorpus) {
   const std::map<std::string, Target> targets = {
-      {"cdr", FuzzCdr},   {"msg", FuzzMsg},  {"idl", FuzzIdl},
-      {"mcap", FuzzMcap}, {"db3", FuzzDb3},  {"bag_metadata", FuzzBagMetadata},
-      {"urdf", FuzzUrdf}, {"yaml", FuzzYaml}};
+      {"cdr", FuzzCdr},   {"msg", FuzzMsg},   {"idl", FuzzIdl},
+      {"mcap", FuzzMcap}, {"db3", FuzzDb3},   {"bag_metadata", FuzzBagMetadata},
+      {"urdf", FuzzUrdf}, {"yaml", FuzzYaml}, {"mapping", FuzzMapping}};
   const fs::path corpus = fs::path(SCORIA_SOURCE_DIR) / "tests/fuzz/corpus";
   for (const auto& entry : fs::directory_iterator(corpus)) {
     EXPECT_TRUE(targets.contains(entry.path().filename())) << entry.path() << " has no target";

@@ -18,6 +18,7 @@ void FuzzDb3(std::span<const std::uint8_t> input);
 void FuzzBagMetadata(std::span<const std::uint8_t> input);
 void FuzzUrdf(std::span<const std::uint8_t> input);
 void FuzzYaml(std::span<const std::uint8_t> input);
+void FuzzMapping(std::span<const std::uint8_t> input);
 
 }  // namespace scoria::test
 
