@@ -32,6 +32,7 @@ void ClockStatistics::Add(std::int64_t time_ns) {
     largest_step_back_ns_ = std::max(largest_step_back_ns_, -step);
     steps_.Add(step);
   }
+  if (count_ == 1) first_ns_ = time_ns;
   largest_ns_ = count_ == 1 ? time_ns : std::max(largest_ns_, time_ns);
   last_ns_ = time_ns;
 }
@@ -39,6 +40,13 @@ void ClockStatistics::Add(std::int64_t time_ns) {
 std::optional<std::int64_t> ClockStatistics::MedianStep() const {
   if (steps_.IsEmpty()) return std::nullopt;
   return steps_.Quantile(0.5);
+}
+
+std::optional<std::int64_t> ClockStatistics::TypicalStep() const {
+  const std::optional<std::int64_t> median = MedianStep();
+  if (!median) return std::nullopt;
+  const std::int64_t mean = (largest_ns_ - first_ns_) / static_cast<std::int64_t>(count_ - 1);
+  return mean > 4 * *median ? mean : *median;
 }
 
 std::optional<double> ClockStatistics::Irregularity() const {

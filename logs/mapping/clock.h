@@ -41,12 +41,14 @@ class ClockStatistics {
   [[nodiscard]] std::int64_t largest_step_back_ns() const { return largest_step_back_ns_; }
   /// Median of the steps from message to message; nothing below two messages.
   [[nodiscard]] std::optional<std::int64_t> MedianStep() const;
+  /// The median step, or the mean where messages come in bursts: where it is above four medians.
+  [[nodiscard]] std::optional<std::int64_t> TypicalStep() const;
   /// How much the steps differ: from the 5 % to the 95 % quantile, over the median.
   [[nodiscard]] std::optional<double> Irregularity() const;
 
  private:
   std::uint64_t count_ = 0, num_back_ = 0;
-  std::int64_t last_ns_ = 0, largest_ns_ = 0, largest_step_back_ns_ = 0;
+  std::int64_t first_ns_ = 0, last_ns_ = 0, largest_ns_ = 0, largest_step_back_ns_ = 0;
   Reservoir steps_;
 };
 

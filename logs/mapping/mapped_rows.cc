@@ -2,11 +2,12 @@
 #include "logs/mapping/mapped_rows.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
+#include "logs/mapping/mapped_log.h"
 #include "logs/mapping/row_maker.h"
-#include "logs/mapping/scan.h"
 
 namespace scoria::logs {
 namespace {
@@ -22,7 +23,7 @@ bool NeedsDerivative(const MappingFile& file, SignalId id) {
 StreamSettings SettingsOf(const Mapping& mapping, const MappedTopic& topic) {
   constexpr std::int64_t kPeriods = 3, kUnknown_ns = 1'000'000'000;
   StreamSettings settings;
-  const std::int64_t step_ns = topic.median_step_ns().value_or(kUnknown_ns);
+  const std::int64_t step_ns = topic.step_ns().value_or(kUnknown_ns);
   settings.max_age_ns = kPeriods * step_ns;
   if (const auto max_age_s = topic.bound().max_age_s)
     settings.max_age_ns = std::llround(*max_age_s * 1e9);

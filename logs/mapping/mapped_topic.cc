@@ -250,9 +250,9 @@ const ClockStatistics& MappedTopic::StatisticsOf(ClockChoice clock) const {
   return clock == ClockChoice::kCounter ? counter_ : receive_;
 }
 
-std::optional<std::int64_t> MappedTopic::median_step_ns() const {
+std::optional<std::int64_t> MappedTopic::step_ns() const {
   if (clock_ == ClockChoice::kRow) return std::llround(mapping_.file().time.row_period_s * 1e9);
-  return StatisticsOf(clock_).MedianStep();
+  return StatisticsOf(clock_).TypicalStep();
 }
 
 std::int64_t MappedTopic::largest_step_back_ns() const {

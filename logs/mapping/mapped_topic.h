@@ -56,8 +56,8 @@ class MappedTopic {
   [[nodiscard]] ClockChoice clock() const noexcept { return clock_; }
   [[nodiscard]] bool has_stamps() const noexcept { return header_.count() > 0; }
   [[nodiscard]] bool has_counts() const noexcept { return counter_.count() > 0; }
-  /// Of the clock chosen; nothing below two messages.
-  [[nodiscard]] std::optional<std::int64_t> median_step_ns() const;
+  /// Typical step of the clock chosen; nothing below two messages.
+  [[nodiscard]] std::optional<std::int64_t> step_ns() const;
   [[nodiscard]] std::int64_t largest_step_back_ns() const;
   /// Median of the time of recording minus that of the clock chosen.
   [[nodiscard]] std::int64_t receive_offset_ns() const;

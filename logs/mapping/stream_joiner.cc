@@ -45,8 +45,8 @@ void StreamJoiner::Add(std::size_t index, std::int64_t time_ns,
   Stream& stream = streams_[index];
   if (IsFarBehind(stream, time_ns)) return;
   if (index == base_) {
-    const auto at = std::upper_bound(waiting_ns_.begin(), waiting_ns_.end(), time_ns);
-    waiting_ns_.insert(at, time_ns);
+    const auto at = std::upper_bound(waiting_.begin(), waiting_.end(), time_ns, IsBefore);
+    waiting_.insert(at, {time_ns, signals});
   }
   Insert(stream, {time_ns, std::move(signals)});
   newest_ns_ = std::max(newest_ns_.value_or(time_ns), time_ns);
@@ -75,26 +75,25 @@ bool StreamJoiner::IsFarBehind(Stream& stream, std::int64_t time_ns) {
 }
 
 void StreamJoiner::Insert(Stream& stream, Sample sample) {
-  const auto is_later = [](std::int64_t time_ns, const Sample& s) { return time_ns < s.time_ns; };
   stream.newest_ns = std::max(stream.newest_ns.value_or(sample.time_ns), sample.time_ns);
   const auto at =
-      std::upper_bound(stream.samples.begin(), stream.samples.end(), sample.time_ns, is_later);
+      std::upper_bound(stream.samples.begin(), stream.samples.end(), sample.time_ns, IsBefore);
   stream.samples.insert(at, std::move(sample));
 }
 
 void StreamJoiner::MakeReadyRows() {
-  while (!waiting_ns_.empty() && IsReady(waiting_ns_.front())) {
-    const std::int64_t time_ns = waiting_ns_.front();
-    waiting_ns_.pop_front();
-    MakeRow(time_ns);
-    Prune(waiting_ns_.empty() ? time_ns : std::min(time_ns, waiting_ns_.front()));
+  while (!waiting_.empty() && IsReady(waiting_.front().time_ns)) {
+    const Sample base = std::move(waiting_.front());
+    waiting_.pop_front();
+    MakeRow(base);
+    Prune(base.time_ns);
   }
 }
 
 void StreamJoiner::Finish() {
-  while (!waiting_ns_.empty()) {
-    MakeRow(waiting_ns_.front());
-    waiting_ns_.pop_front();
+  while (!waiting_.empty()) {
+    MakeRow(waiting_.front());
+    waiting_.pop_front();
   }
 }
 
@@ -108,11 +107,17 @@ bool StreamJoiner::IsReady(std::int64_t time_ns) const {
   });
 }
 
-void StreamJoiner::MakeRow(std::int64_t time_ns) {
+/// What the base stream has is the row's own sample, also where several are of one time.
+void StreamJoiner::MakeRow(const Sample& base) {
+  const std::int64_t time_ns = base.time_ns;
   SignalSet signals;
   for (const SignalTraits& traits : AllSignals()) {
     const auto k = static_cast<std::size_t>(traits.id);
     if (!places_[k]) continue;
+    if (places_[k]->stream == base_) {
+      signals[k] = base.signals[places_[k]->signal];
+      continue;
+    }
     signals[k] = traits.joining == SignalJoining::kEvent ? EventAt(*places_[k], time_ns)
                                                          : ValueAt(*places_[k], traits.id, time_ns);
   }
@@ -133,8 +138,7 @@ std::optional<SignalValues> StreamJoiner::ValueAt(Place place, SignalId id,
                                                   std::int64_t time_ns) const {
   const Stream& stream = streams_[place.stream];
   const auto after =
-      std::upper_bound(stream.samples.begin(), stream.samples.end(), time_ns,
-                       [](std::int64_t t, const Sample& sample) { return t < sample.time_ns; });
+      std::upper_bound(stream.samples.begin(), stream.samples.end(), time_ns, IsBefore);
   const std::int64_t max_age = stream.settings.max_age_ns;
   const Sample* left = after == stream.samples.begin() ? nullptr : &*std::prev(after);
   const Sample* right = after == stream.samples.end() ? nullptr : &*after;

@@ -77,11 +77,14 @@ class StreamJoiner {
     std::size_t stream = 0, signal = 0;
   };
 
+  static bool IsBefore(std::int64_t time_ns, const Sample& sample) {
+    return time_ns < sample.time_ns;
+  }
   bool IsFarBehind(Stream& stream, std::int64_t time_ns);
   static void Insert(Stream& stream, Sample sample);
   void MakeReadyRows();
   [[nodiscard]] bool IsReady(std::int64_t time_ns) const;
-  void MakeRow(std::int64_t time_ns);
+  void MakeRow(const Sample& base);
   void Prune(std::int64_t time_ns);
   [[nodiscard]] std::optional<SignalValues> ValueAt(Place place, SignalId id,
                                                     std::int64_t time_ns) const;
@@ -91,7 +94,7 @@ class StreamJoiner {
   std::size_t base_;
   OnRow on_row_;
   PerSignal<Place> places_;
-  std::deque<std::int64_t> waiting_ns_;    // rows, by time
+  std::deque<Sample> waiting_;             // of the base stream: rows to be made, by time
   std::optional<std::int64_t> newest_ns_;  // of all streams
   std::optional<std::int64_t> last_row_ns_;
   std::uint64_t num_restarts_ = 0;

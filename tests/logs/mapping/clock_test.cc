@@ -25,6 +25,7 @@ TEST(Clock, BurstsAndStepsBackShow) {
   ClockStatistics clock;
   for (int i = 0; i < 1000; ++i) clock.Add((i - i % 10) * 2 * kMs);  // ten at a time
   EXPECT_EQ(clock.MedianStep(), 0);
+  EXPECT_NEAR(static_cast<double>(clock.TypicalStep().value()), 2.0 * kMs, 0.1 * kMs);
   EXPECT_FALSE(clock.Irregularity());
   clock.Add(1990 * kMs);
   clock.Add(1980 * kMs);

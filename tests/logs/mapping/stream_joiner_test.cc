@@ -115,6 +115,17 @@ TEST(StreamJoiner, OneLateMessageIsLeftOutAndManyAreAClockSetBack) {
   EXPECT_EQ(rows[3].time_ms, 8.0);
 }
 
+TEST(StreamJoiner, RowsOfOneTimeKeepTheirOwnSamples) {
+  std::vector<double> own;
+  StreamJoiner joiner({{{SignalId::kJointQ}, 0, 0, 0}, {{kHeld}, 100 * kMs, 0, 0}}, 0,
+                      [&](const StreamJoiner::Instant&, const SignalSet& signals) {
+                        own.push_back((*signals[static_cast<std::size_t>(SignalId::kJointQ)])[0]);
+                      });
+  for (const double value : {1.0, 2.0, 3.0}) joiner.Add(0, 5 * kMs, {SignalValues{value}});
+  joiner.Add(1, 6 * kMs, {SignalValues{}});
+  EXPECT_EQ(own, (std::vector<double>{1.0, 2.0, 3.0}));
+}
+
 TEST(StreamJoiner, AttitudesTakeTheShorterWay) {
   std::optional<SignalValues> middle;
   StreamJoiner joiner({{{SignalId::kJointQ}, 0, 0, 0}, {{SignalId::kImuAttitude}, 100 * kMs, 0, 0}},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "logs/mapping/scan.h"
+#include "logs/mapping/mapped_log.h"
 
 #include <algorithm>
 #include <cmath>
