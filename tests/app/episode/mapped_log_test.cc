@@ -105,7 +105,7 @@ TEST(MappedLog, OfOurOwnInTheReferencesTopicsHasOurOwnRows) {
     }
     if (testing::Test::HasFailure()) FAIL() << "in row " << i;
   }
-  EXPECT_GT(with_mpc, 350);
+  EXPECT_GT(with_mpc, 300);  // of 100 Hz; lying it solves none
   EXPECT_GT(with_model, 2);
 }
 
