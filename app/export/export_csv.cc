@@ -11,7 +11,7 @@
 #include "core/files.h"
 #include "core/text.h"
 #include "logs/channel_types.h"
-#include "logs/csv_text.h"
+#include "logs/csv_line.h"
 #include "logs/ros/field_reader.h"
 #include "logs/ros/flat_table.h"
 #include "logs/ros/message_error.h"

@@ -7,7 +7,7 @@
 
 #include "core/draft_file.h"
 #include "core/files.h"
-#include "logs/csv_text.h"
+#include "logs/csv_line.h"
 #include "logs/messages/read_messages.h"
 #include "logs/read_rows.h"
 #include "logs/row_table.h"

@@ -22,6 +22,7 @@
 #include "logs/format/open_log.h"
 #include "logs/messages/scoria.h"
 #include "logs/read_rows.h"
+#include "logs/survey.h"
 #include "tests/support/mcap_file.h"
 #include "tests/support/program.h"
 #include "tests/support/robots.h"
@@ -262,6 +263,29 @@ TEST_F(Export, McapOfALogWithoutDefinitionsHasThem) {
   choice.Show(bytes);
   EXPECT_EQ(choice.Report(), "the bag");
   EXPECT_EQ(copy->contents().channels[1].type_name, "our_msgs/msg/Secret");
+}
+
+// A bag of sqlite3, of which neither yaml nor database has definitions.
+TEST_F(Export, SqliteBagsBecomeMcap) {
+  const char* data = std::getenv("SCORIA_REFERENCE_DATA");
+  if (data == nullptr) GTEST_SKIP() << "SCORIA_REFERENCE_DATA is not set";
+  const fs::path bag = fs::path(data) / "logs/go2_vicon_orl/test_6_vicon_bag";
+  const test::ProgramEnd end = Run({bag.string(), "-o", "copy.mcap"});
+  EXPECT_EQ(end.output, "copy.mcap: 7396 messages\n");
+  const auto original = logs::OpenLog(bag);
+  const auto copy = logs::OpenLog(folder() / "copy.mcap");
+  std::vector<Copied> ours = MessagesOf(*copy), theirs = MessagesOf(*original);
+  for (auto* messages : {&ours, &theirs}) {
+    for (Copied& message : *messages) {
+      message.publish_time_ns.reset();  // which the bag has not
+      message.sequence.reset();
+    }
+  }
+  EXPECT_EQ(ours, theirs);
+  EXPECT_EQ(copy->contents().channels[0].metadata, original->contents().channels[0].metadata);
+  const logs::LogSurvey survey = logs::SurveyLog(*copy, logs::TypeResolver());
+  EXPECT_EQ(survey.channels[0].type.Report(), "the bag");
+  EXPECT_EQ(survey.channels[0].undecoded, 0u);
 }
 
 // --- What scoria logs itself ---

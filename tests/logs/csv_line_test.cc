@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "logs/csv_text.h"
+#include "logs/csv_line.h"
 
 #include <limits>
 #include <vector>
@@ -9,12 +9,12 @@
 namespace scoria::logs {
 namespace {
 
-TEST(CsvText, QuotesWhatWouldNotReadBack) {
+TEST(CsvLine, QuotesWhatWouldNotReadBack) {
   const std::vector<std::string> cells = {"1.5", "", "a b", "a,b", "say \"x\"", "two\nlines"};
   EXPECT_EQ(CsvLine(cells), "1.5,,a b,\"a,b\",\"say \"\"x\"\"\",\"two\nlines\"\n");
 }
 
-TEST(CsvText, SecondsKeepEveryNanosecond) {
+TEST(CsvLine, SecondsKeepEveryNanosecond) {
   EXPECT_EQ(SecondsText(1'700'000'000'000'000'001), "1700000000.000000001");
   EXPECT_EQ(SecondsText(-1), "-0.000000001");
   EXPECT_EQ(SecondsText(0), "0.000000000");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "logs/csv_text.h"
+#include "logs/csv_line.h"
 
 #include <fmt/format.h>
 
