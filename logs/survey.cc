@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "logs/channel_types.h"
+#include "logs/format/csv_log.h"
 #include "logs/interval_histogram.h"
 #include "logs/ros/check_message.h"
 #include "logs/ros/field_reader.h"
@@ -120,13 +121,15 @@ class StampMeter {
 
 class ChannelMeter {
  public:
-  explicit ChannelMeter(TypeChoice choice) : survey_(std::move(choice)) {}
+  ChannelMeter(const LogChannel& channel, TypeChoice choice) : survey_(std::move(choice)) {
+    survey_.is_table = channel.message_encoding == kCsvEncoding;
+  }
 
   void Add(const LogMessage& m) {
     ++survey_.messages;
     survey_.bytes += m.data.size();
     receive_.Add(m.log_time_ns);
-    if (!Fits(m)) return;
+    if (survey_.is_table || !Fits(m)) return;
     FollowType();
     try {
       if (stamps_) stamps_->Add(m);
@@ -137,6 +140,7 @@ class ChannelMeter {
 
   [[nodiscard]] ChannelSurvey Finish() && {
     survey_.receive = receive_.Finish();
+    if (survey_.is_table) return std::move(survey_);
     FollowType();
     if (stamps_) stamps_->Finish(survey_);
     const TypeCandidate* const taken = survey_.type.taken();
@@ -192,9 +196,9 @@ std::optional<double> ClockSurvey::rate_Hz() const {
 
 LogSurvey SurveyLog(LogSource& log, const TypeResolver& resolver) {
   std::vector<ChannelMeter> meters;
-  for (TypeChoice& type : ResolveTypes(log.contents(), resolver)) {
-    meters.emplace_back(std::move(type));
-  }
+  std::vector<TypeChoice> types = ResolveTypes(log.contents(), resolver);
+  for (std::size_t i = 0; i < types.size(); ++i)
+    meters.emplace_back(log.contents().channels[i], std::move(types[i]));
   LogSurvey survey;
   log.ForEach({.order = LogOrder::kStored}, [&](const LogMessage& m) {
     ++survey.messages;

@@ -43,9 +43,12 @@ struct ChannelSurvey {
   std::optional<ClockSurvey> header;
   std::string header_path;  // where that is, as "header.stamp"
   std::optional<ClockDifference> receive_after_header;
-  TypeChoice type;              // every message was shown to it
+  bool is_table = false;        // of a CSV file: columns, no type
+  TypeChoice type;              // every message was shown to it; none that is a table's
   std::uint64_t undecoded = 0;  // messages that do not fit what is taken; all, if nothing is
   std::string first_undecoded;  // why, where something is taken
+
+  [[nodiscard]] bool IsDecoded() const noexcept { return is_table || type.taken() != nullptr; }
 };
 
 /// What a log holds, as read to its end.

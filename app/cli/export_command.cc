@@ -46,6 +46,11 @@ void AddExport(CLI::App& app, int& exit_code) {
   command->add_flag("--signals", o->signals, "one CSV file of canonical signals, a line per row")
       ->excludes(topics)
       ->excludes(format);
+  command
+      ->add_option(
+          "--mapping", o->what.mapping,
+          "of signals: mapping file, or name of a shipped one (default: the one that fits)")
+      ->needs("--signals");
   command->add_option("--from", o->what.from_s, "start, after the log's first message [s]");
   command->add_option("--to", o->what.to_s, "end, after the log's first message [s]");
   command->add_option("--msg-path", o->what.msg_paths,
@@ -58,7 +63,7 @@ void AddExport(CLI::App& app, int& exit_code) {
     for (const std::string& remark : result.remarks) Note(remark);
     for (const ExportedFile& file : result.files)
       fmt::print("{}: {} {}\n", file.path.string(), file.entries,
-                 file.path.extension() == ".csv" ? "rows" : "messages");
+                 o->signals || file.path.extension() == ".csv" ? "rows" : "messages");
     if (!result.was_interrupted) return;
     Note("interrupted; nothing is written");
     exit_code = kStopped;

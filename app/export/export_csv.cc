@@ -12,6 +12,7 @@
 #include "core/text.h"
 #include "logs/channel_types.h"
 #include "logs/csv_line.h"
+#include "logs/format/csv_log.h"
 #include "logs/ros/field_reader.h"
 #include "logs/ros/flat_table.h"
 #include "logs/ros/message_error.h"
@@ -122,7 +123,9 @@ class CsvExport {
   void MakeShapes() {
     for (std::size_t i = 0; i < types_.size(); ++i) {
       if (counts_[i] == 0) continue;
-      if (const logs::TypeCandidate* const taken = types_[i].taken()) {
+      if (ChannelOf(i).message_encoding == logs::kCsvEncoding) {
+        Remark(i, "left out: it is CSV already; --signals writes its canonical signals");
+      } else if (const logs::TypeCandidate* const taken = types_[i].taken()) {
         shapes_[i].emplace(taken->type);
       } else {
         Remark(i, "left out: " + types_[i].Report());

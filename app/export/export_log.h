@@ -19,6 +19,7 @@ struct ExportOptions {
   std::optional<std::vector<std::string>> topics;  // none: all
   std::optional<double> from_s, to_s;              // since the log's first message; none: no limit
   std::vector<std::filesystem::path> msg_paths;    // as TypeResolver takes them
+  std::optional<std::string> mapping;              // of signals: as RowsOptions has it
   bool force = false;                              // overwrite files that are there
   const std::atomic<bool>* interrupted = nullptr;  // ends the export, with nothing written
 };

@@ -29,6 +29,9 @@
 #include "core/robot_files/shape_size.h"
 #include "core/text.h"
 #include "logs/format/open_log.h"
+#include "logs/mapping/any_rows.h"
+#include "logs/mapping/choose_mapping.h"
+#include "logs/mapping/draft_mapping.h"
 #include "logs/survey.h"
 #include "terrains/generator.h"
 
@@ -135,7 +138,13 @@ void PrintVerdict(const core::RobotDescription& robot) {
 struct InfoOptions {
   std::string file;
   std::vector<std::filesystem::path> msg_paths;
+  std::optional<std::string> mapping;
+  std::filesystem::path draft_mapping;
   bool json = false, defaults = false;
+
+  [[nodiscard]] bool AsksOfALog() const {
+    return json || !msg_paths.empty() || mapping || !draft_mapping.empty();
+  }
 };
 
 void PrintRobotInfo(const InfoOptions& options) {
@@ -150,12 +159,38 @@ void PrintRobotInfo(const InfoOptions& options) {
   PrintVerdict(robot);
 }
 
+/// How a log becomes rows, in words.
+std::string RowsText(logs::LogSource& log, const logs::TypeResolver& resolver,
+                     const InfoOptions& options) {
+  if (!options.mapping && logs::HasOwnRows(log.contents())) return "canonical signals: its own\n";
+  try {
+    const logs::Mapping mapping = logs::MappingFor(log.contents(), options.mapping);
+    return logs::DescribeReport(
+        logs::ForEachMappedRow(log, mapping, resolver, [](const logs::Row&) {}));
+  } catch (const logs::MappingChoiceError& e) {
+    return fmt::format("{}\n", e.what());
+  }
+}
+
+void WriteDraft(const std::filesystem::path& file, logs::LogSource& log,
+                const logs::TypeResolver& resolver) {
+  if (std::filesystem::exists(file))
+    throw std::runtime_error(fmt::format("{}: exists; name a file that does not", file.string()));
+  core::WriteText(file, logs::DraftMapping(log, resolver));
+  fmt::print("{}: a draft; read its comments, then info {} --mapping {}\n", file.string(),
+             log.contents().path.string(), file.string());
+}
+
 void PrintLogInfo(const InfoOptions& options) {
   const logs::TypeResolver resolver(options.msg_paths);
   const std::unique_ptr<logs::LogSource> log = logs::OpenLog(options.file);
+  if (!options.draft_mapping.empty()) return WriteDraft(options.draft_mapping, *log, resolver);
   const logs::LogSurvey survey = logs::SurveyLog(*log, resolver);
-  fmt::print("{}", options.json ? analysis::JsonText(LogInfoJson(*log, survey))
-                                : LogInfoText(*log, survey));
+  if (options.json) {
+    fmt::print("{}", analysis::JsonText(LogInfoJson(*log, survey)));
+  } else {
+    fmt::print("{}\n{}", LogInfoText(*log, survey), RowsText(*log, resolver, options));
+  }
 }
 
 void AddInfo(CLI::App& app) {
@@ -166,6 +201,9 @@ void AddInfo(CLI::App& app) {
       ->required();
   info->add_option("--msg-path", o->msg_paths,
                    "folder of .msg or .idl files that define types of a log; may be repeated");
+  info->add_option("--mapping", o->mapping,
+                   "mapping file, or name of a shipped one (default: the one that fits a log)");
+  info->add_option("--draft-mapping", o->draft_mapping, "write a draft of a mapping for a log");
   info->add_flag("--json", o->json, "print what a log holds as JSON");
   info->add_flag("--defaults", o->defaults, "list the defaults that go with a robot's size");
   info->callback([o] {
@@ -174,9 +212,10 @@ void AddInfo(CLI::App& app) {
         throw std::runtime_error(fmt::format("{}: is no robot; --defaults is for robots", o->file));
       return PrintLogInfo(*o);
     }
-    if (o->json || !o->msg_paths.empty())
-      throw std::runtime_error(
-          fmt::format("{}: is no log; --json and --msg-path are for logs", o->file));
+    if (o->AsksOfALog())
+      throw std::runtime_error(fmt::format(
+          "{}: is no log; --json, --msg-path, --mapping and --draft-mapping are for logs",
+          o->file));
     PrintRobotInfo(*o);
   });
 }

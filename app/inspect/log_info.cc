@@ -12,6 +12,7 @@
 
 #include "core/file_kind.h"
 #include "core/text.h"
+#include "logs/format/csv_log.h"
 
 namespace scoria::app {
 namespace {
@@ -93,7 +94,11 @@ Cells RowOf(const LogChannel& channel, const ChannelSurvey& survey) {
                       ? fmt::format("{:.3f}", kMsPerS * survey.receive_after_header->median_s)
                       : "-");
   const logs::TypeCandidate* const taken = survey.type.taken();
-  cells.push_back(taken == nullptr ? "not decoded" : taken->origin);
+  if (survey.is_table) {
+    cells.push_back(fmt::format("{} columns", logs::CsvLayoutOf(channel).columns));
+  } else {
+    cells.push_back(taken == nullptr ? "not decoded" : taken->origin);
+  }
   return cells;
 }
 
@@ -128,9 +133,9 @@ std::vector<std::string> RemarksOn(const LogChannel& channel, const ChannelSurve
   std::vector<std::string> remarks;
   const logs::TypeCandidate* const taken = survey.type.taken();
   const std::string report = survey.type.Report();
-  if (taken == nullptr) {
+  if (!survey.IsDecoded()) {
     remarks.push_back("not decoded: " + report);
-  } else if (report != taken->origin) {
+  } else if (taken != nullptr && report != taken->origin) {
     remarks.push_back("decoded by " + report);
   }
   if (taken != nullptr && taken->misfits == 0 && survey.undecoded > 0)
@@ -144,7 +149,7 @@ std::vector<std::string> RemarksOn(const LogChannel& channel, const ChannelSurve
 
 std::string HeadText(const logs::LogContents& contents, const logs::LogSurvey& survey) {
   std::size_t decoded = 0;
-  for (const ChannelSurvey& channel : survey.channels) decoded += channel.type.taken() ? 1 : 0;
+  for (const ChannelSurvey& channel : survey.channels) decoded += channel.IsDecoded() ? 1 : 0;
   std::string text = fmt::format("{}: {}, {:.3f} MB\n", contents.path.string(), contents.format,
                                  1e-6 * static_cast<double>(BytesOf(contents.path)));
   text += survey.span
@@ -197,6 +202,7 @@ json ToJson(const LogChannel& channel, const ChannelSurvey& survey) {
               {"header", nullptr},
               {"receive_after_header", nullptr},
               {"definition", taken == nullptr ? json(nullptr) : json(taken->origin)},
+              {"is_table", survey.is_table},
               {"report", survey.type.Report()},
               {"undecoded", survey.undecoded}};
   if (survey.header) {

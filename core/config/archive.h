@@ -411,8 +411,24 @@ class ConfigDescriber {
   [[nodiscard]] static FieldInfo Describe(T& value);
 
  private:
+  template <class... Ts>
+  static std::vector<FieldInfo> DescribeAlternatives(const std::variant<Ts...>*);
+
   std::vector<FieldInfo> fields_;
 };
+
+template <class... Ts>
+std::vector<FieldInfo> ConfigDescriber::DescribeAlternatives(const std::variant<Ts...>*) {
+  std::vector<FieldInfo> children;
+  const auto add = [&]<class A>(std::type_identity<A>) {
+    A alternative{};
+    FieldInfo child = Describe(alternative);
+    child.key = A::kType;
+    children.push_back(std::move(child));
+  };
+  (add(std::type_identity<Ts>{}), ...);
+  return children;
+}
 
 template <class T>
 FieldInfo ConfigDescriber::Describe(T& value) {
@@ -455,19 +471,7 @@ FieldInfo ConfigDescriber::Describe(T& value) {
   } else if constexpr (d::IsVariant<T>::value) {
     info.kind = "variant";
     info.default_value = std::visit([](auto& a) { return std::string(a.kType); }, value);
-    [&]<class... Ts>(const std::variant<Ts...>*) {
-      auto add = [&]<class A>(std::type_identity<A>) {
-        A alternative{};
-        ConfigDescriber describer;
-        alternative.Serialize(describer);
-        FieldInfo child;
-        child.key = A::kType;
-        child.kind = "struct";
-        child.children = describer.fields_;
-        info.children.push_back(std::move(child));
-      };
-      (add(std::type_identity<Ts>{}), ...);
-    }(&value);
+    info.children = DescribeAlternatives(&value);
     return info;
   } else {
     ConfigDescriber describer;

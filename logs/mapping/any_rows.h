@@ -24,6 +24,14 @@ struct RowsReport {
   std::string problem;                   // what is wrong with the log, in words; empty if nothing
 };
 
+/// True for a log of scoria's with its canonical signals.
+[[nodiscard]] bool HasOwnRows(const LogContents& contents);
+
+/// The mapping that is asked for, or the shipped one that fits.
+/// Errors: ConfigError, MappingChoiceError.
+[[nodiscard]] Mapping MappingFor(const LogContents& contents,
+                                 const std::optional<std::string>& asked_for);
+
 /// Calls on_row with every row of a log of whatever origin: its own rows if scoria wrote it and no
 /// mapping is asked for, else those of the mapping, or of the shipped one that fits.
 /// @param log  one path, or several CSV files on one clock.

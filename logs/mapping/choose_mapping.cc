@@ -53,7 +53,7 @@ const Mapping& ChooseMapping(const LogContents& contents, std::span<const Mappin
   if (best.empty())
     throw MappingChoiceError(
         fmt::format("{}: none of the mappings {} fits its topics, types and columns; write one "
-                    "(docs/mappings.md) or have one drafted",
+                    "(docs/mappings.md) or draft one: scoria info LOG --draft-mapping FILE",
                     contents.path.string(), fmt::join(names, ", ")));
   throw MappingChoiceError(fmt::format("{}: the mappings {} and {} fit equally; say which",
                                        contents.path.string(), best[0]->name(), best[1]->name()));

@@ -155,6 +155,12 @@ std::string DescribeReport(const MappingReport& report) {
     if (!topic.type.empty()) text += fmt::format(", definition: {}", topic.type);
     text += "\n";
   }
+  std::vector<std::string_view> groups;
+  for (const auto& [group, name] : EnumNames(RowGroup{})) {
+    if (report.groups[static_cast<std::size_t>(group)]) groups.push_back(name);
+  }
+  if (!groups.empty())
+    text += fmt::format("  canonical signals: {}\n", fmt::join(groups, ", "));
   if (!report.absent.empty())
     text += fmt::format("  the log has no {}\n", fmt::join(report.absent, ", "));
   if (report.truth_is_of_markers)

@@ -40,81 +40,108 @@ std::string AxesProblem(const std::array<std::string, 3>& axes) {
   return "names an axis twice";
 }
 
-/// Calls visit(key, source) for every signal of a file that is there, with the section's topic.
+/// Calls visit(key, topic, source) for a signal, and for a section's, if they are there.
+template <class Visit>
+class SourceVisitor {
+ public:
+  explicit SourceVisitor(Visit& visit) : visit_(visit) {}
+  template <class Source>
+  void Add(SignalId id, const std::string& topic, Source& source) const {
+    if (source) visit_(id, topic, *source);
+  }
+  template <class Section, class Use>
+  void In(Section& section, Use&& use) const {
+    if (section) use(*section);
+  }
+
+ private:
+  Visit& visit_;
+};
+
+/// What was sensed and estimated, by the robot or beside it.
+template <class File, class Visitor>
+void VisitMeasuredSources(File& f, const Visitor& v) {
+  using Id = SignalId;
+  v.Add(Id::kJointQ, f.joints.topic, f.joints.q);
+  v.Add(Id::kJointQd, f.joints.topic, f.joints.qd);
+  v.Add(Id::kJointTau, f.joints.topic, f.joints.tau);
+  v.In(f.imu, [&](auto& s) {
+    v.Add(Id::kImuAttitude, s.topic, s.attitude);
+    v.Add(Id::kImuRate, s.topic, s.rate);
+    v.Add(Id::kImuAcceleration, s.topic, s.acceleration);
+  });
+  v.In(f.feet, [&](auto& s) { v.Add(Id::kFootForce, s.topic, s.force); });
+  v.In(f.battery, [&](auto& s) {
+    v.Add(Id::kBatteryVoltage, s.topic, s.voltage);
+    v.Add(Id::kBatteryCurrent, s.topic, s.current);
+  });
+  v.In(f.joint_command, [&](auto& s) {
+    v.Add(Id::kJointCommandQ, s.topic, s.q);
+    v.Add(Id::kJointCommandQd, s.topic, s.qd);
+    v.Add(Id::kJointCommandTau, s.topic, s.tau);
+    v.Add(Id::kJointCommandKp, s.topic, s.kp);
+    v.Add(Id::kJointCommandKd, s.topic, s.kd);
+  });
+  v.In(f.estimate, [&](auto& s) {
+    v.Add(Id::kEstimatePosition, s.topic, s.position);
+    v.Add(Id::kEstimateVelocity, s.topic, s.velocity);
+    v.Add(Id::kEstimateAttitude, s.topic, s.attitude);
+  });
+  v.In(f.truth, [&](auto& s) {
+    v.Add(Id::kTruthPosition, s.topic, s.position);
+    v.Add(Id::kTruthVelocity, s.topic, s.velocity);
+    v.Add(Id::kTruthRate, s.topic, s.rate);
+    v.Add(Id::kTruthAttitude, s.topic, s.attitude);
+  });
+  v.In(f.true_contacts, [&](auto& s) {
+    v.Add(Id::kTrueContact, s.topic, s.contact);
+    v.Add(Id::kTrueForce, s.topic, s.force);
+    v.Add(Id::kTrueFootPosition, s.topic, s.position);
+  });
+}
+
+/// What was wanted, planned and concluded.
+template <class File, class Visitor>
+void VisitControlSources(File& f, const Visitor& v) {
+  using Id = SignalId;
+  v.In(f.command, [&](auto& s) {
+    v.Add(Id::kCommandVx, s.topic, s.v_x);
+    v.Add(Id::kCommandVy, s.topic, s.v_y);
+    v.Add(Id::kCommandWz, s.topic, s.w_z);
+  });
+  v.In(f.plan, [&](auto& s) {
+    v.Add(Id::kPlanPeriod, s.topic, s.period);
+    v.Add(Id::kPlanDuty, s.topic, s.duty);
+    v.Add(Id::kPlanPhase, s.topic, s.phase);
+    v.Add(Id::kPlanStance, s.topic, s.stance);
+    v.Add(Id::kPlanFootTarget, s.topic, s.foot_target);
+  });
+  v.In(f.reference, [&](auto& s) {
+    v.Add(Id::kReferencePosition, s.topic, s.position);
+    v.Add(Id::kReferenceVelocity, s.topic, s.velocity);
+    v.Add(Id::kReferenceAttitude, s.topic, s.attitude);
+  });
+  v.In(f.contacts, [&](auto& s) {
+    v.Add(Id::kContact, s.topic, s.contact);
+    v.Add(Id::kContactForce, s.topic, s.force);
+  });
+  v.In(f.model, [&](auto& s) {
+    v.Add(Id::kModelMass, s.topic, s.mass);
+    v.Add(Id::kModelCom, s.topic, s.com);
+  });
+  v.In(f.solve_times, [&](auto& s) {
+    v.Add(Id::kMpcTime, s.topic, s.mpc);
+    v.Add(Id::kWbcTime, s.topic, s.wbc);
+  });
+}
+
+/// Calls visit(key, topic, source) for every signal of a file that is there, with the section's
+/// topic.
 template <class File, class Visit>
 void ForEachSource(File& f, Visit&& visit) {
-  using Id = SignalId;
-  const auto add = [&](Id id, const std::string& topic, auto& source) {
-    if (source) visit(id, topic, *source);
-  };
-  const auto in = [](auto& section, auto&& use) {
-    if (section) use(*section);
-  };
-  add(Id::kJointQ, f.joints.topic, f.joints.q);
-  add(Id::kJointQd, f.joints.topic, f.joints.qd);
-  add(Id::kJointTau, f.joints.topic, f.joints.tau);
-  in(f.imu, [&](auto& s) {
-    add(Id::kImuAttitude, s.topic, s.attitude);
-    add(Id::kImuRate, s.topic, s.rate);
-    add(Id::kImuAcceleration, s.topic, s.acceleration);
-  });
-  in(f.feet, [&](auto& s) { add(Id::kFootForce, s.topic, s.force); });
-  in(f.battery, [&](auto& s) {
-    add(Id::kBatteryVoltage, s.topic, s.voltage);
-    add(Id::kBatteryCurrent, s.topic, s.current);
-  });
-  in(f.joint_command, [&](auto& s) {
-    add(Id::kJointCommandQ, s.topic, s.q);
-    add(Id::kJointCommandQd, s.topic, s.qd);
-    add(Id::kJointCommandTau, s.topic, s.tau);
-    add(Id::kJointCommandKp, s.topic, s.kp);
-    add(Id::kJointCommandKd, s.topic, s.kd);
-  });
-  in(f.estimate, [&](auto& s) {
-    add(Id::kEstimatePosition, s.topic, s.position);
-    add(Id::kEstimateVelocity, s.topic, s.velocity);
-    add(Id::kEstimateAttitude, s.topic, s.attitude);
-  });
-  in(f.truth, [&](auto& s) {
-    add(Id::kTruthPosition, s.topic, s.position);
-    add(Id::kTruthVelocity, s.topic, s.velocity);
-    add(Id::kTruthRate, s.topic, s.rate);
-    add(Id::kTruthAttitude, s.topic, s.attitude);
-  });
-  in(f.true_contacts, [&](auto& s) {
-    add(Id::kTrueContact, s.topic, s.contact);
-    add(Id::kTrueForce, s.topic, s.force);
-    add(Id::kTrueFootPosition, s.topic, s.position);
-  });
-  in(f.command, [&](auto& s) {
-    add(Id::kCommandVx, s.topic, s.v_x);
-    add(Id::kCommandVy, s.topic, s.v_y);
-    add(Id::kCommandWz, s.topic, s.w_z);
-  });
-  in(f.plan, [&](auto& s) {
-    add(Id::kPlanPeriod, s.topic, s.period);
-    add(Id::kPlanDuty, s.topic, s.duty);
-    add(Id::kPlanPhase, s.topic, s.phase);
-    add(Id::kPlanStance, s.topic, s.stance);
-    add(Id::kPlanFootTarget, s.topic, s.foot_target);
-  });
-  in(f.reference, [&](auto& s) {
-    add(Id::kReferencePosition, s.topic, s.position);
-    add(Id::kReferenceVelocity, s.topic, s.velocity);
-    add(Id::kReferenceAttitude, s.topic, s.attitude);
-  });
-  in(f.contacts, [&](auto& s) {
-    add(Id::kContact, s.topic, s.contact);
-    add(Id::kContactForce, s.topic, s.force);
-  });
-  in(f.model, [&](auto& s) {
-    add(Id::kModelMass, s.topic, s.mass);
-    add(Id::kModelCom, s.topic, s.com);
-  });
-  in(f.solve_times, [&](auto& s) {
-    add(Id::kMpcTime, s.topic, s.mpc);
-    add(Id::kWbcTime, s.topic, s.wbc);
-  });
+  const SourceVisitor visitor(visit);
+  VisitMeasuredSources(f, visitor);
+  VisitControlSources(f, visitor);
 }
 
 /// The three numbers that hold for a leg.

@@ -349,12 +349,29 @@ TEST_F(Export, AnswersMistakesInWords) {
   EXPECT_EQ(error({"log.mcap", "-o", "csv", "--from", "100"}),
             "log.mcap: has no message in what is asked for\n");
   EXPECT_EQ(error({"log.mcap", "-o", ".", "--format", "mcap"}), ".: is a folder; name a file\n");
-  EXPECT_EQ(error({"log.mcap", "-o", "rows.csv", "--signals"}),
-            "log.mcap: holds no canonical signals; logs that scoria writes with log.topics: all "
-            "do\n");
+  EXPECT_TRUE(error({"log.mcap", "-o", "rows.csv", "--signals"})
+                  .ends_with("; write one (docs/mappings.md) or draft one: scoria info LOG "
+                             "--draft-mapping FILE\n"));
   EXPECT_NE(error({"log.mcap", "-o", "a", "--signals", "--topics", "/a"}).find("--topics"),
             std::string::npos);
   EXPECT_FALSE(fs::exists(folder() / "csv"));
+}
+
+TEST_F(Export, SignalsOfAFieldLogByItsMapping) {
+  const std::string log = test::SourcePath("samples/go2_walk.mcap").string();
+  const fs::path all = folder() / "all.csv", part = folder() / "part.csv";
+  EXPECT_EQ(test::RunScoria({"export", log, "--signals", "-o", all.string()}).code, 0);
+  EXPECT_EQ(test::RunScoria({"export", log, "--signals", "-o", part.string(), "--mapping",
+                             "dfki_quad", "--from", "1", "--to", "1.1"})
+                .code,
+            0);
+  const auto lines = [](const fs::path& file) {
+    const std::string text = core::ReadText(file);
+    return std::count(text.begin(), text.end(), '\n');
+  };
+  EXPECT_EQ(lines(all), 901);
+  EXPECT_EQ(lines(part), 27) << "a header and 26 rows at 250 Hz";
+  EXPECT_NE(core::ReadText(all).find("measured.q_rad[0]"), std::string::npos);
 }
 
 TEST_F(Export, OverwritesOnlyByForce) {

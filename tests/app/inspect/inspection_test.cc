@@ -120,11 +120,13 @@ TEST(WrongFile, IsNamedInOneShortLine) {
   for (int i = 0; i < 40000; ++i) grid += "1.25 ";
   const std::string file = (folder.path() / "dem.asc").string();
   core::WriteText(file, grid);
-  const std::string not_yaml =
-      ": is an ESRI ASCII grid, not a YAML file (a terrain names it: heightmap: {file: "
-      "NAME.asc})\n";
-  for (const char* command : {"terrain", "info", "run", "campaign"})
-    EXPECT_EQ(Shell(fmt::format("{} {}", command, file)), file + not_yaml) << command;
+  const std::string use = " (a terrain names it: heightmap: {file: NAME.asc})\n";
+  for (const char* command : {"terrain", "run", "campaign"})
+    EXPECT_EQ(Shell(fmt::format("{} {}", command, file)),
+              file + ": is an ESRI ASCII grid, not a YAML file" + use)
+        << command;
+  EXPECT_EQ(Shell("info " + file),
+            file + ": is an ESRI ASCII grid, not a log that scoria reads" + use);
   EXPECT_EQ(Shell("info robots/go2/go2.urdf"),
             "robots/go2/go2.urdf: is a URDF, not a YAML file (a robot's YAML names it: urdf: "
             "NAME.urdf)\n");

@@ -42,8 +42,14 @@ TEST(LogInfo, ShowsLogTopicsAndClocks) {
   const test::TemporaryFolder folder;
   const fs::path log = folder.path() / "log.mcap";
   WriteCommands(log);
-  const test::ProgramEnd end = test::RunScoria({"info", log.string()});
+  test::ProgramEnd end = test::RunScoria({"info", log.string()});
   EXPECT_EQ(end.code, 0);
+  const std::size_t mapping = end.output.find("\n" + log.string() + ": none of the mappings ");
+  ASSERT_NE(mapping, std::string::npos) << end.output;
+  EXPECT_TRUE(end.output.ends_with(
+      "; write one (docs/mappings.md) or draft one: scoria info LOG --draft-mapping FILE\n"))
+      << end.output;
+  end.output.erase(mapping);
   EXPECT_EQ(
       end.output,
       fmt::format(
@@ -61,6 +67,26 @@ TEST(LogInfo, ShowsLogTopicsAndClocks) {
           "/quad_control_target  interfaces/msg/QuadControlTarget         3     50.0   "
           "0.040    100 %     0       -       -        -     -            -  the bag\n",
           log.string()));
+}
+
+TEST(LogInfo, TellsHowALogBecomesSignalsAndDraftsAMapping) {
+  const test::TemporaryFolder folder;
+  const std::string log = test::SourcePath("samples/go2_walk.mcap").string();
+  const std::string shipped = test::RunScoria({"info", log}).output;
+  EXPECT_NE(shipped.find("\nmapping dfki_quad: 900 rows, one for each message of /quad_state\n"),
+            std::string::npos)
+      << shipped;
+  EXPECT_NE(shipped.find("  canonical signals: measured, command, joint_command, plan, reference, "
+                         "estimate, contacts, model, solve_times\n"),
+            std::string::npos)
+      << shipped;
+  const std::string draft = (folder.path() / "draft.yaml").string();
+  EXPECT_EQ(test::RunScoria({"info", log, "--draft-mapping", draft}).code, 0);
+  const std::string drafted = test::RunScoria({"info", log, "--mapping", draft}).output;
+  EXPECT_NE(drafted.find("\nmapping draft: 900 rows, "), std::string::npos) << drafted;
+  EXPECT_EQ(test::RunScoria({"info", log, "--draft-mapping", draft}).output,
+            draft + ": exists; name a file that does not\n");
+  EXPECT_EQ(test::RunScoria({"info", log, "--mapping", "dfki_squad"}).code, 2);
 }
 
 TEST(LogInfo, JsonHoldsTheSame) {
@@ -138,8 +164,9 @@ TEST(LogInfo, AnswersMistakesInWords) {
   EXPECT_EQ(bag.code, 2);
   EXPECT_NE(bag.output.find("bag.bag: is a ROS 1 bag, not a log"), std::string::npos) << bag.output;
   core::WriteText(folder.path() / "dog.yaml", "name: dog\n");
-  EXPECT_EQ(run({"info", "dog.yaml", "--json"}).output,
-            "dog.yaml: is no log; --json and --msg-path are for logs\n");
+  EXPECT_EQ(
+      run({"info", "dog.yaml", "--json"}).output,
+      "dog.yaml: is no log; --json, --msg-path, --mapping and --draft-mapping are for logs\n");
 }
 
 // --- Damaged logs of others ---

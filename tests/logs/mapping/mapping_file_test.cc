@@ -244,7 +244,7 @@ TEST(ChooseMapping, SaysWhenNoneOrTwoFit) {
   EXPECT_EQ(choose({one, two}), ": the mappings one and two fit equally; say which");
   EXPECT_EQ(choose({other}),
             ": none of the mappings other fits its topics, types and columns; write one "
-            "(docs/mappings.md) or have one drafted");
+            "(docs/mappings.md) or draft one: scoria info LOG --draft-mapping FILE");
 }
 
 TEST(FindMapping, IsByNameOrFile) {
