@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include "core/config/source.h"
@@ -104,14 +105,52 @@ class YamlConverter {
   int count_ = 0;
 };
 
+/// Notes where documents begin.
+class DocumentStarts final : public YAML::EventHandler {
+ public:
+  void OnDocumentStart(const YAML::Mark& mark) override { marks_.push_back(mark); }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+  [[nodiscard]] const std::vector<YAML::Mark>& marks() const { return marks_; }
+
+ private:
+  std::vector<YAML::Mark> marks_;
+};
+
+/// Whether there is a document. YAML::LoadAll is not used: where a text begins with a comma, it sees
+/// an empty document there for ever.
+/// Errors: ConfigError if there are several, or text that belongs to none.
+bool HasDocument(const std::string& text, const std::string& name) {
+  std::istringstream in(text);
+  YAML::Parser parser(in);
+  DocumentStarts starts;
+  while (parser.HandleNextDocument(starts)) {
+    const std::vector<YAML::Mark>& marks = starts.marks();
+    if (marks.size() < 2) continue;
+    if (marks[0].pos == marks[1].pos)
+      throw ConfigError(OriginOf(marks[0], name), "",
+                        fmt::format("not valid YAML: a value does not begin with {}",
+                                    Shown(text.substr(static_cast<std::size_t>(marks[0].pos), 1))));
+    throw ConfigError({name, 0, 0}, "", "holds more than one YAML document");
+  }
+  return !starts.marks().empty();
+}
+
 ConfigNode ParseYaml(const std::string& text, const Origin& origin) {
   CheckUtf8(text, origin);
   const std::string& name = origin.file;
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.size() > 1)
-      throw ConfigError({name, 0, 0}, "", "holds more than one YAML document");
-    return documents.empty() ? ConfigNode{} : YamlConverter(name).Convert(documents.front(), "");
+    if (!HasDocument(text, name)) return {};
+    return YamlConverter(name).Convert(YAML::Load(text), "");
   } catch (const YAML::Exception& e) {
     throw ConfigError(OriginOf(e.mark, name), "", "not valid YAML: " + Shown(e.msg, 200));
   }

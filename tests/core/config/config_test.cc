@@ -86,6 +86,11 @@ TEST(Config, ErrorsNamePlaceKeyValueAndRule) {
             "a.yaml:2:19: list[0].radius_m: \"a\" is not a number");
   EXPECT_EQ(ErrorOf("name: x\nlist: 3\n"), "a.yaml:2:7: list: \"3\" is not a list");
   EXPECT_EQ(ErrorOf("name: [\n").substr(0, 30), "a.yaml:2:1: not valid YAML: en");
+  // yaml-cpp's LoadAll does not return from the first of these.
+  EXPECT_EQ(ErrorOf(",n"), "a.yaml:1:1: not valid YAML: a value does not begin with ,");
+  EXPECT_EQ(ErrorOf("# ü\n]"), "a.yaml:2:1: not valid YAML: illegal flow end");
+  EXPECT_EQ(ErrorOf("name: x\n---\nname: y\n"), "a.yaml: holds more than one YAML document");
+  EXPECT_EQ(ErrorOf("name: x\n...\n,"), "a.yaml: holds more than one YAML document");
 }
 
 struct SquareByDefault {
