@@ -2,8 +2,7 @@
 
 set(SCORIA_MARCH "x86-64-v3" CACHE STRING "Value of -march; empty for the compiler's default")
 option(SCORIA_WERROR "Warnings are errors" OFF)
-option(SCORIA_FUZZ "Build the fuzz targets as programs (clang, with SCORIA_SANITIZE=fuzzer-no-link,...)" OFF)
-set(SCORIA_SANITIZE "" CACHE STRING "Value of -fsanitize, such as address,undefined")
+set(SCORIA_SANITIZE "" CACHE STRING "Value of -fsanitize, such as address,undefined; with fuzzer-no-link the fuzz targets are programs")
 
 if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release)
@@ -26,10 +25,6 @@ if(SCORIA_SANITIZE)
   target_compile_options(scoria_options INTERFACE
     -fsanitize=${SCORIA_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(scoria_options INTERFACE -fsanitize=${SCORIA_SANITIZE})
-endif()
-
-if(SCORIA_FUZZ)
-  target_compile_options(scoria_options INTERFACE -fno-sanitize-recover=all)  # the fuzzer sees only what ends the program
 endif()
 
 # scoria_library(NAME SOURCES a.cc ... PUBLIC targets PRIVATE targets): static library scoria::NAME.

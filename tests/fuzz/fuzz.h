@@ -6,7 +6,7 @@
 #include <span>
 
 /// Fuzz targets: functions that take any bytes and must neither crash nor hang. Each NAME_fuzz.cc
-/// holds one and is a program of its own where SCORIA_FUZZ is on (clang, libFuzzer); in all builds
+/// holds one and is a program of its own in the build asan-ubsan (clang, libFuzzer); in all builds
 /// a test runs it over the files of corpus/NAME.
 namespace scoria::test {
 
