@@ -18,9 +18,9 @@
 /// Supported: bool, int, uint64_t, double, string, path (relative to the file that names it), enum
 /// with EnumNames(), Vec3, array, vector, map by string, optional, struct with Serialize, and
 /// std::variant of structs that each have kType, chosen by the key `type`. A struct with kScalarKey
-/// and kListKey may be written as the one value, or the list, of that key. Names that were once others are still
-/// read, with a note: of a key by FieldRule::was, of a struct's type by its kFormerType, of an enum
-/// value by FormerNames(), like EnumNames().
+/// and kListKey may be written as the one value, or the list, of that key. Names that were once
+/// others are still read, with a note: of a key by FieldRule::was, of a struct's type by its
+/// kFormerType, of an enum value by FormerNames(), like EnumNames().
 namespace scoria::core {
 
 struct FieldRule {

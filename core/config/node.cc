@@ -126,9 +126,9 @@ class DocumentStarts final : public YAML::EventHandler {
   std::vector<YAML::Mark> marks_;
 };
 
-/// Whether there is a document. YAML::LoadAll is not used: where a text begins with a comma, it sees
-/// an empty document there for ever.
-/// Errors: ConfigError if there are several, or text that belongs to none.
+/// Whether there is a document. YAML::LoadAll is not used: where a text begins with a comma, it
+/// sees an empty document there for ever. Errors: ConfigError if there are several, or text that
+/// belongs to none.
 bool HasDocument(const std::string& text, const std::string& name) {
   std::istringstream in(text);
   YAML::Parser parser(in);

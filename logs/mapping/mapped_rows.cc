@@ -159,8 +159,7 @@ std::string DescribeReport(const MappingReport& report) {
   for (const auto& [group, name] : EnumNames(RowGroup{})) {
     if (report.groups[static_cast<std::size_t>(group)]) groups.push_back(name);
   }
-  if (!groups.empty())
-    text += fmt::format("  canonical signals: {}\n", fmt::join(groups, ", "));
+  if (!groups.empty()) text += fmt::format("  canonical signals: {}\n", fmt::join(groups, ", "));
   if (!report.absent.empty())
     text += fmt::format("  the log has no {}\n", fmt::join(report.absent, ", "));
   if (report.truth_is_of_markers)
