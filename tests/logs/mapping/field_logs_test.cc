@@ -294,8 +294,8 @@ TEST_F(FieldLogs, MiniCheetahWalksBackwardsWithItsHipsZeroed) {
   const Array12& q = *log.rows[0].measured->q_rad;
   for (std::size_t leg = 0; leg < 4; ++leg) {
     EXPECT_NEAR(q[3 * leg], 0.0, 1e-4);
-    EXPECT_NEAR(q[3 * leg + 1], 1.0, 1e-4);
-    EXPECT_NEAR(q[3 * leg + 2], -1.9, 1e-4);
+    EXPECT_NEAR(q[3 * leg + 1], -1.0, 1e-4);
+    EXPECT_NEAR(q[3 * leg + 2], 1.9, 1e-4);  // knees forward
   }
   double path_m = 0.0;
   for (std::size_t i = 1; i < log.rows.size(); ++i)
