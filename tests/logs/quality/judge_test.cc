@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "logs/quality/judge.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "tests/logs/quality/quality_logs.h"
+
+namespace scoria::logs {
+namespace {
+
+/// A body on a circle, seen by motion capture alone, 200 Hz: yaw, velocity and position agree.
+std::vector<Row> Circle(double duration_s = 6.0) {
+  constexpr double kRate_radps = 0.6, kRadius_m = 1.0;
+  std::vector<Row> rows;
+  for (int k = 0; k * 0.005 < duration_s; ++k) {
+    Row row;
+    row.time_s = k * 0.005;
+    const double yaw = kRate_radps * row.time_s, speed = kRate_radps * kRadius_m;
+    row.truth.emplace();
+    row.truth->p_WB_m = {kRadius_m * std::sin(yaw), kRadius_m * (1.0 - std::cos(yaw)), 0.3};
+    row.truth->v_WB_mps = {speed * std::cos(yaw), speed * std::sin(yaw), 0.0};
+    row.truth->w_WB_radps = {0.0, 0.0, kRate_radps};
+    row.truth->rpy_rad = {0.0, 0.0, yaw};
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+/// The only finding of a kind; none if there are others of it.
+std::optional<Finding> Find(const std::vector<Finding>& findings, FindingKind kind) {
+  std::optional<Finding> found;
+  for (const Finding& f : findings) {
+    if (f.kind != kind) continue;
+    if (found) return std::nullopt;
+    found = f;
+  }
+  return found;
+}
+
+TEST(LogJudge, CircleHasNothingWrong) {
+  for (const Finding& f : test::Judge(Circle(), nullptr))
+    EXPECT_EQ(f.severity, Severity::kNote) << DescribeFinding(f);
+}
+
+TEST(LogJudge, EmptyLogHasNothingWrong) { EXPECT_TRUE(test::Judge({}, nullptr).empty()); }
+
+TEST(LogJudge, VelocityInAxesOfTheTrunkIsToldByThePosition) {
+  std::vector<Row> rows = Circle();
+  for (Row& row : rows) row.truth->v_WB_mps = {0.6, 0.0, 0.0};
+  const auto f = Find(test::Judge(rows, nullptr), FindingKind::kVelocityFrame);
+  ASSERT_TRUE(f);
+  EXPECT_EQ(f->signal, "truth.velocity");
+  EXPECT_EQ(f->severity, Severity::kError);
+  EXPECT_EQ(f->repair, "mapping: truth.velocity: {frame: body}");
+  EXPECT_TRUE(f->spoils[static_cast<std::size_t>(RowGroup::kTruth)]);
+  EXPECT_EQ(f->spoils.count(), 1u);
+}
+
+TEST(LogJudge, FrameOfAVelocityIsNotJudgedWithoutTurning) {
+  std::vector<Row> rows = Circle();
+  for (Row& row : rows) {
+    row.truth->p_WB_m = {0.6 * row.time_s, 0.0, 0.3};
+    row.truth->v_WB_mps = {0.6, 0.0, 0.0};
+    row.truth->w_WB_radps = {};
+    row.truth->rpy_rad = {};
+  }
+  bool is_told = false;
+  for (const Finding& f : test::Judge(rows, nullptr)) {
+    EXPECT_EQ(f.severity, Severity::kNote) << DescribeFinding(f);
+    is_told = is_told || (f.kind == FindingKind::kNotJudged && f.signal == "truth.velocity");
+  }
+  EXPECT_TRUE(is_told);
+}
+
+TEST(LogJudge, WordsOfTheirOwnAreNoMeasurements) {
+  std::vector<Row> rows = Circle();
+  for (Row& row : rows) {
+    row.measured.emplace();
+    row.measured->q_rad.emplace();
+    row.measured->q_rad->fill(0.1 * std::sin(3.0 * row.time_s));
+  }
+  for (int k = 100; k < 110; ++k) (*rows[static_cast<std::size_t>(k)].measured->q_rad)[4] = 2.146e9;
+  (*rows[200].measured->q_rad)[5] = std::numeric_limits<double>::quiet_NaN();
+  int sentinels = 0;
+  for (const Finding& f : test::Judge(rows, nullptr)) {
+    if (f.kind != FindingKind::kSentinel) continue;
+    ++sentinels;
+    EXPECT_EQ(f.signal, "joints.q");
+    if (f.count == 1u) {
+      EXPECT_EQ(f.evidence, "no finite number, 1 times");
+      continue;
+    }
+    EXPECT_EQ(
+        DescribeFinding(f),
+        "error: sentinel of joints.q, at 0.500 to 0.545 s: 2.146e+09, which no sensor measures, "
+        "10 times; mapping: joints.q: {absent: [2.146e+09]}");
+  }
+  EXPECT_EQ(sentinels, 2);
+}
+
+TEST(LogJudge, RateOfAJointHasTheSignOfItsDerivative) {
+  std::vector<Row> rows = Circle();
+  for (Row& row : rows) {
+    row.measured.emplace();
+    row.measured->q_rad.emplace().fill(0.1 * std::sin(6.0 * row.time_s));
+    row.measured->qd_radps.emplace().fill(0.6 * std::cos(6.0 * row.time_s));
+    (*row.measured->qd_radps)[7] *= -1.0;
+  }
+  const auto f = Find(test::Judge(rows, nullptr), FindingKind::kJointRate);
+  ASSERT_TRUE(f);
+  EXPECT_EQ(f->leg, Leg::kHL);
+  EXPECT_EQ(f->joint, Joint::kHFE);
+  EXPECT_NEAR(f->size.value(), -1.0, 0.01);
+}
+
+TEST(LogJudge, JumpOfAPositionIsNamedWithItsMoment) {
+  std::vector<Row> rows = Circle();
+  for (std::size_t k = 600; k < rows.size(); ++k) rows[k].truth->p_WB_m[0] += 1.0;
+  const auto f = Find(test::Judge(rows, nullptr), FindingKind::kJump);
+  ASSERT_TRUE(f);
+  ASSERT_EQ(f->spans.size(), 1u);
+  EXPECT_NEAR(f->spans[0].begin_s, 3.0, 0.02);
+}
+
+TEST(LogJudge, PlacementOfTheRobotIsNoJump) {
+  std::vector<Row> rows = Circle();
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    rows[k].episode.emplace();
+    rows[k].episode->segment = k < 600 ? 0 : 1;
+    if (k >= 600) rows[k].truth->p_WB_m[0] += 1.0;
+  }
+  EXPECT_FALSE(Find(test::Judge(rows, nullptr), FindingKind::kJump));
+}
+
+TEST(LogJudge, StandingRobotsPauseMayBeAGapOrAStep) {
+  std::vector<Row> rows = Circle();
+  for (Row& row : rows) row.truth->p_WB_m = {0.0, 0.0, 0.3};
+  for (std::size_t k = 600; k < rows.size(); ++k) rows[k].time_s += 1.0;
+  const auto f = Find(test::Judge(rows, nullptr), FindingKind::kGap);
+  ASSERT_TRUE(f);
+  EXPECT_NE(f->evidence.find("not enough motion to tell"), std::string::npos) << f->evidence;
+}
+
+TEST(LogJudge, EqualTimesAndTimesThatGoBackAreNamed) {
+  std::vector<Row> rows = Circle();
+  rows[300].time_s = rows[299].time_s;
+  for (std::size_t k = 600; k < 620; ++k) rows[k].time_s -= 0.5;
+  const std::vector<Finding> findings = test::Judge(rows, nullptr);
+  EXPECT_TRUE(Find(findings, FindingKind::kRepeatedTimes));
+  bool goes_back = false;
+  for (const Finding& f : findings)
+    goes_back =
+        goes_back || f.kind == FindingKind::kTimeBackwards || f.kind == FindingKind::kClockStep;
+  EXPECT_TRUE(goes_back);
+}
+
+}  // namespace
+}  // namespace scoria::logs
