@@ -269,6 +269,41 @@ TEST(Inspect, NamesWhatLooksWrong) {
             "FL and FR are no mirror images: mass of the HFE link 2 and 1.152 kg");
 }
 
+TEST(Inspect, NamesMassesThatNoRobotHas) {
+  const auto found = [](const std::string& from, const std::string& to) {
+    std::string urdf = test::Go2().urdf_text;
+    urdf.replace(urdf.find(from), from.size(), to);
+    return fmt::format("{}", fmt::join(FindSuspicions(MakeRobot(test::Go2().config, urdf)), "; "));
+  };
+  // In grams: 6921 + 8.098 kg over 0.426³ m³; √(0.107 / 6921) m; both out of what robots are.
+  const std::string grams = found("mass value=\"6.921\"", "mass value=\"6921\"");
+  EXPECT_NE(
+      grams.find("6929 kg on legs of 0.426 m: no robot is so heavy; are masses in kg, lengths "
+                 "in m?"),
+      std::string::npos)
+      << grams;
+  const std::string narrow = found("mass value=\"6.921\"", "mass value=\"692100\"");
+  EXPECT_NE(narrow.find("base_link: radius of gyration 0.00039 m for 6.92e+05 kg, of a robot of "),
+            std::string::npos)
+      << narrow;
+  // 30 of 15.019 + 28.848 kg.
+  const std::string leg = found("<mass value=\"1.152\"/>", "<mass value=\"30\"/>");
+  EXPECT_NE(leg.find("30 of the robot's 43.9 kg are in one link of a leg"), std::string::npos)
+      << leg;
+}
+
+TEST(Inspect, NamesLimitsThatLookLikePlaceholders) {
+  RobotDescription robot = test::Go2();
+  robot.legs[Leg::kFL].joints[2].effort_Nm = 1000.0;
+  robot.legs[Leg::kFL].joints[0].velocity_radps = 1000.0;
+  // 5 m g L = 5 x 15.019 x 9.81 x 0.426 Nm, 15 sqrt(g / L) = 72.0 rad/s.
+  EXPECT_EQ(fmt::format("{}", fmt::join(FindModelWarnings(robot), "; ")),
+            "FL_hip_joint: limit of 1000 rad/s looks like a placeholder, drives of such a robot "
+            "stay below 72 rad/s; set limits.haa.velocity_radps in the robot's YAML; "
+            "FL_calf_joint: limit of 1000 Nm looks like a placeholder, drives of such a robot stay "
+            "below 314 Nm; set limits.kfe.effort_Nm in the robot's YAML");
+}
+
 TEST(Inspect, NamesWhatTheYamlGetsWrong) {
   RobotConfig config = test::Go2().config;
   config.nominal_height_m = 1.5;
