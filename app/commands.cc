@@ -18,6 +18,7 @@ void AddCommands(CLI::App& app, int& exit_code) {
   AddRender(app);
   AddVerify(app, exit_code);
   AddReplay(app, exit_code);
+  AddScenarioFrom(app);
   AddExport(app, exit_code);
 }
 

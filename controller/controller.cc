@@ -20,9 +20,11 @@ Count CountOf(Monitor monitor) noexcept {
 
 }  // namespace
 
-bool NeedsTruth(const ControllerParams& params) noexcept {
-  return NeedsTruth(params.contact) || NeedsTruth(params.estimator);
+SensingParams SensingOf(const ControllerParams& params) {
+  return {params.samples, params.contact, params.estimator, params.adaptation};
 }
+
+bool NeedsTruth(const ControllerParams& params) noexcept { return NeedsTruth(SensingOf(params)); }
 
 Controller::Controller(const ControllerParams& params, const core::RobotDescription& robot,
                        double gravity_mps2, double step_s, const Start& start)
@@ -33,12 +35,8 @@ Controller::Controller(const ControllerParams& params, const core::RobotDescript
       mpc_every_(core::RateDivider(params.rates.mpc_Hz, step_s).every_steps()),
       wbc_every_(core::RateDivider(params.rates.wbc_Hz, step_s).every_steps()),
       operating_(false),
-      model_(robot, gravity_mps2),
       foot_radius_m_(robot.legs[Leg::kFL].foot_radius_m),
-      samples_(params.samples),
-      contact_(std::in_place, params.contact, robot, gravity_mps2, step_s),
-      estimator_(MakeStateEstimator(params.estimator, robot, gravity_mps2, start.placement)),
-      adapter_(MakeModelAdapter(params.adaptation, robot, gravity_mps2, params.contact.observer)),
+      sensing_(SensingOf(params), robot, gravity_mps2, step_s, start.placement, start.model),
       stand_up_(params.stand_up,
                 start.pose == Start::Pose::kLying
                     ? std::optional(StandingPose(robot, robot.config.nominal_height_m))
@@ -54,11 +52,7 @@ Controller::Controller(const ControllerParams& params, const core::RobotDescript
           MakeWholeBodyController(core::Scaled(InverseDynamicsParams{}, robot.similarity), robot)),
       guard_(params.safety, robot, StandingPose(robot, robot.config.nominal_height_m)),
       quality_(params.quality),
-      supervisor_(params.supervisor) {
-  if (!start.model) return;
-  model_.SetParameters(*start.model);
-  adapter_->Continue(*start.model);
-}
+      supervisor_(params.supervisor) {}
 
 const ControlOutput& Controller::Step(const SensorFrame& z, const Command& command,
                                       const SolverFaults& faults,
@@ -99,24 +93,9 @@ const ControlOutput& Controller::Step(const SensorFrame& z, const Command& comma
 
 void Controller::Reconfigure(const ControllerParams& params) {
   const ControllerParams before = std::exchange(params_, params);
-  const double gravity_mps2 = model_.gravity_mps2();
-  ContactParams other_choice = before.contact;
-  other_choice.source = params.contact.source;
-  if (params.contact == other_choice) {
-    contact_->SetChoice(ContactChoiceInForce());
-  } else {
-    contact_.emplace(params.contact, robot_, gravity_mps2, clock_.step_s());
-    contact_->SetChoice(ContactChoiceInForce());
-  }
-  if (params.estimator != before.estimator) {
-    estimator_ = MakeStateEstimator(params.estimator, robot_, gravity_mps2, {});
-    estimator_->Continue(out_.estimate, 1.0);
-  }
-  if (params.adaptation != before.adaptation ||
-      params.contact.observer != before.contact.observer) {
-    adapter_ = MakeModelAdapter(params.adaptation, robot_, gravity_mps2, params.contact.observer);
-    adapter_->Continue(model_.parameters());
-  }
+  const double gravity_mps2 = sensing_.model().gravity_mps2();
+  sensing_.Reconfigure(SensingOf(params));
+  sensing_.SetContactChoice(ContactChoiceInForce());
   if (params.gait != before.gait) {
     const PhaseEngine phases = gait_->phases();
     gait_ = MakeGaitSequencer(params.gait, robot_.config.nominal_height_m);
@@ -127,7 +106,6 @@ void Controller::Reconfigure(const ControllerParams& params) {
     mpc_since_ = (clock_.step() + mpc_every_ - 1) / mpc_every_ * mpc_every_;  // its first tick
   }
   if (params.wbc != before.wbc) wbc_ = MakeWholeBodyController(params.wbc, robot_);
-  samples_.set_params(params.samples);
   reference_planner_.set_params(params.reference);
   if (params.foothold != before.foothold) foothold_planner_.set_params(params.foothold);
   leg_states_.set_params(params.legs);
@@ -137,71 +115,33 @@ void Controller::Reconfigure(const ControllerParams& params) {
   supervisor_.set_params(params.supervisor);
 }
 
-/// Checks what the sensors say, then contacts, state, mass and the model at that state.
 void Controller::Sense(const SensorFrame& raw, const TrueInputs& true_inputs) noexcept {
-  const CheckedFrame& checked = samples_.Check(raw, counters_);
-  if (clock_.step() == first_step_) {
-    RobotState at_hand;
-    at_hand.q = checked.z.q;
-    model_.Calc(at_hand, wb_);
-  }
   const double plan_age_s = static_cast<double>(clock_.step() - contacts_step_) * clock_.step_s();
-  out_.contact = contact_->Update(
-      {checked.z, wb_, out_.contacts, plan_age_s, reference_planner_.plane(), foot_radius_m_});
-  if (true_inputs.contact) {
-    out_.contact.contact = *true_inputs.contact;
-    out_.contact.source = LegArray<ContactSource>(ContactSource::kTruth);
-  }
-  out_.estimate =
-      estimator_->Update({checked.z, checked.imu_dt_s, checked.imu_saturated, out_.contact, wb_,
-                          reference_planner_.plane().Normal(), !operating_},
-                         counters_);
-  SubstituteState(true_inputs);
-  out_.adaptation =
-      adapter_->Update({out_.estimate.state, checked.z, out_.contact, clock_.step_s(), operating_});
-  UpdateModel(true_inputs);
-  model_.Calc(out_.estimate.state, wb_);
-  out_.model_mass_kg = wb_.mass_kg;
-}
-
-void Controller::SubstituteState(const TrueInputs& true_inputs) noexcept {
-  if (!true_inputs.state) {
-    from_truth_.reset();
-    return;
-  }
-  RobotState& state = out_.estimate.state;
-  if (!from_truth_) from_truth_ = core::WorldShift::Between(*true_inputs.state, state);
-  state = from_truth_->Apply(*true_inputs.state);
-}
-
-void Controller::UpdateModel(const TrueInputs& true_inputs) noexcept {
-  if (true_inputs.trunk) {
-    model_.SetParameters(*true_inputs.trunk);
-  } else if (out_.adaptation.changed || model_is_true_) {
-    model_.SetParameters(out_.adaptation.parameters);
-  }
-  model_is_true_ = true_inputs.trunk.has_value();
+  static_cast<Sensed&>(out_) =
+      sensing_.Step(raw, {out_.contacts, plan_age_s, reference_planner_.plane(), operating_},
+                    true_inputs, counters_);
+  out_.model_mass_kg = sensing_.wb().mass_kg;
 }
 
 void Controller::StepPlans(const Command& asked, const LocalGround* ground) noexcept {
+  const core::WholeBody& wb = sensing_.wb();
   const Command command = supervisor_.Temper(asked, robot_.config.nominal_height_m);
   const double dt_s = mpc_every_ * clock_.step_s();
   if (ground != nullptr) {
-    reference_planner_.ObserveGround(wb_, *ground);
+    reference_planner_.ObserveGround(wb, *ground);
   } else {
-    reference_planner_.ObserveFeet(wb_, out_.contact.contact, foot_radius_m_, dt_s);
+    reference_planner_.ObserveFeet(wb, out_.contact.contact, foot_radius_m_, dt_s);
   }
-  reference_ =
-      reference_planner_.Plan(wb_, command, params_.mpc.horizon, params_.mpc.stage_s, dt_s);
+  reference_ = reference_planner_.Plan(wb, command, params_.mpc.horizon, params_.mpc.stage_s, dt_s);
 
   GaitInput gait;
   gait.command = command;
-  gait.v_xy_mps = wb_.v_WC.head<2>().norm();
-  gait.w_z_radps = wb_.state.w_WB.z();
-  gait.height_m = wb_.p_WC.z() - reference_.ground_z_m;
+  gait.v_xy_mps = wb.v_WC.head<2>().norm();
+  gait.w_z_radps = wb.state.w_WB.z();
+  gait.height_m = wb.p_WC.z() - reference_.ground_z_m;
   for (const Leg leg : kLegs) {
     gait.early_contact[leg] = out_.legs.mode[leg] == LegMode::kEarlyContact;
-    gait.foot_error_m[leg] = foothold_planner_.DistanceFromNeutral(wb_, leg);
+    gait.foot_error_m[leg] = foothold_planner_.DistanceFromNeutral(wb, leg);
   }
   gait.least_duty = supervisor_.care() * params_.supervisor.careful_duty;
   gait.dt_s = dt_s;
@@ -210,12 +150,12 @@ void Controller::StepPlans(const Command& asked, const LocalGround* ground) noex
   out_.contacts = gait_->Plan(gait);
   contacts_step_ = clock_.step();
   out_.legs = leg_states_.Update(out_.contacts, out_.contact.contact, 0.0, 0.0, counters_);
-  footholds_ = foothold_planner_.Plan(wb_, out_.contacts, out_.legs, reference_,
+  footholds_ = foothold_planner_.Plan(wb, out_.contacts, out_.legs, reference_,
                                       reference_planner_.plane(), ground);
   out_.reference = reference_.stages[0];
   out_.ground_z_m = reference_.ground_z_m;
 
-  mpc_->input() = {wb_, out_.contacts, out_.legs, reference_, footholds_};
+  mpc_->input() = {wb, out_.contacts, out_.legs, reference_, footholds_};
 }
 
 /// The plan that is due becomes the one in force, unless it failed or is late.
@@ -241,11 +181,12 @@ void Controller::TakePlan(SolverFault fault) noexcept {
 }
 
 void Controller::StepBody(SolverFault fault) noexcept {
+  const core::WholeBody& wb = sensing_.wb();
   const double step_s = clock_.step_s();
   const double contacts_age_s = static_cast<double>(clock_.step() - contacts_step_) * step_s;
   out_.legs = leg_states_.Update(out_.contacts, out_.contact.contact, contacts_age_s,
                                  wbc_every_ * step_s, counters_);
-  out_.feet = swing_.Plan(wb_, out_.legs, footholds_,
+  out_.feet = swing_.Plan(wb, out_.legs, footholds_,
                           supervisor_.care() * params_.supervisor.careful_lift_m);
 
   double plan_age_s = static_cast<double>(clock_.step() - active_.step) * step_s;
@@ -253,19 +194,19 @@ void Controller::StepBody(SolverFault fault) noexcept {
   if (!plan.valid || plan_age_s > params_.safety.max_plan_age_s ||
       supervisor_.HasFallenBack(Monitor::kMpc)) {
     counters_.Add(Count::kPlanExpired);
-    plan = StandInPlan(wb_.mass_kg * model_.gravity_mps2(), out_.legs.Contacts(), reference_,
-                       params_.mpc.stage_s);
+    plan = StandInPlan(wb.mass_kg * sensing_.model().gravity_mps2(), out_.legs.Contacts(),
+                       reference_, params_.mpc.stage_s);
     plan_age_s = 0.0;
   }
   const core::Stopwatch stopwatch;
   const WbcResult result =
-      SolveBody({wb_, out_.legs, out_.feet, plan, plan_age_s, reference_.n_W}, fault);
+      SolveBody({wb, out_.legs, out_.feet, plan, plan_age_s, reference_.n_W}, fault);
   out_.wbc_solve_s = stopwatch.seconds();
   torque_shortfall_ = CalcTorqueShortfall(plan);
   out_.wbc_updated = true;
   out_.wbc_status = result.status;
   out_.wbc_iterations = result.iterations;
-  out_.command = guard_.Check(result.command, wb_.state, GuardMode::kWalk, counters_);
+  out_.command = guard_.Check(result.command, wb.state, GuardMode::kWalk, counters_);
   out_.f_F_W = result.f_F_W;
   out_.target = result.target;
 }
@@ -300,12 +241,13 @@ WbcResult Controller::SolveBody(const WbcInput& in, SolverFault fault) noexcept 
 /// What the planned forces of the stance legs ask of a motor beyond its limit, as a share of that;
 /// of the one that lacks most.
 double Controller::CalcTorqueShortfall(const ForcePlan& plan) const noexcept {
+  const core::WholeBody& wb = sensing_.wb();
   const LegArray<Vec3> f_F_W = plan.ForcesFor(out_.legs.Contacts(), reference_.n_W);
   const LegArray<Vec3> effort_Nm = robot_.EffortLimits();
   double shortfall = 0.0;
   for (const Leg leg : kLegs) {
     if (!out_.legs.InContact(leg)) continue;
-    const Vec3 tau_Nm = wb_.h_l[leg] - wb_.J_ll[leg].transpose() * f_F_W[leg];
+    const Vec3 tau_Nm = wb.h_l[leg] - wb.J_ll[leg].transpose() * f_F_W[leg];
     shortfall =
         std::max(shortfall, (tau_Nm.cwiseAbs().array() / effort_Nm[leg].array() - 1.0).maxCoeff());
   }
@@ -320,12 +262,12 @@ StageReports Controller::Report() const noexcept {
   reports.body_answered = body_answered_;
   reports.torque_shortfall = torque_shortfall_;
   for (const Leg leg : kLegs)
-    reports.foot_lag_m[leg] = (out_.feet[leg].p_WF - wb_.p_WF[leg]).norm();
+    reports.foot_lag_m[leg] = (out_.feet[leg].p_WF - sensing_.wb().p_WF[leg]).norm();
   const RobotState& s = out_.estimate.state;
   reports.estimate_finite = s.R_WB.allFinite() && s.p_WB.allFinite() && s.v_WB.allFinite();
   reports.v_W = s.v_WB;
-  reports.a_W =
-      s.R_WB * robot_.R_BS * samples_.last().a_WS_S - model_.gravity_mps2() * Vec3::UnitZ();
+  reports.a_W = s.R_WB * robot_.R_BS * sensing_.last_samples().a_WS_S -
+                sensing_.model().gravity_mps2() * Vec3::UnitZ();
   reports.nis = out_.estimate.nis;
   reports.nis_dof = out_.estimate.nis_dof;
   if (params_.contact.source == ContactChoice::kSensor && robot_.config.has_foot_sensors) {
@@ -356,12 +298,12 @@ void Controller::Act(const Transition& transition) noexcept {
   if (transition.monitor == Monitor::kEstimator && transition.fell_back) {
     // A tilt ξ too far turns gravity into the acceleration ξ × g z that the speed does not show.
     const Vec3 xi_W =
-        Vec3::UnitZ().cross(quality_.acceleration_residual_W()) / model_.gravity_mps2();
+        Vec3::UnitZ().cross(quality_.acceleration_residual_W()) / sensing_.model().gravity_mps2();
     StateEstimate upright = out_.estimate;
     upright.state.R_WB = core::ExpSo3(-xi_W) * upright.state.R_WB;
-    estimator_->Continue(upright, params_.supervisor.covariance_scale);
+    sensing_.ContinueEstimate(upright, params_.supervisor.covariance_scale);
   }
-  if (transition.monitor == Monitor::kContact) contact_->SetChoice(ContactChoiceInForce());
+  if (transition.monitor == Monitor::kContact) sensing_.SetContactChoice(ContactChoiceInForce());
 }
 
 /// The chosen source, or the hierarchy while the supervisor has fallen back on it.

@@ -4,10 +4,6 @@
 #include <array>
 #include <optional>
 
-#include "controller/adaptation/model_adapter.h"
-#include "controller/estimation/contact_estimator.h"
-#include "controller/estimation/sample_guard.h"
-#include "controller/estimation/state_estimator.h"
 #include "controller/gait/gait_sequencer.h"
 #include "controller/mpc/mpc_runner.h"
 #include "controller/reference/reference_planner.h"
@@ -15,6 +11,7 @@
 #include "controller/safety/output_guard.h"
 #include "controller/safety/stage_quality.h"
 #include "controller/safety/supervisor.h"
+#include "controller/sensing.h"
 #include "controller/stand_up.h"
 #include "controller/swing/foothold_planner.h"
 #include "controller/swing/swing_trajectory.h"
@@ -22,9 +19,7 @@
 #include "core/clock.h"
 #include "core/clone_ptr.h"
 #include "core/robot/counters.h"
-#include "core/robot/local_ground.h"
 #include "core/robot/whole_body.h"
-#include "core/robot/world_shift.h"
 #include "core/stage_times.h"
 
 namespace scoria::controller {
@@ -79,11 +74,8 @@ struct ControllerParams {
 };
 
 /// Everything that one tick decided, for the record. `*_updated` tells which parts are new.
-struct ControlOutput {
+struct ControlOutput : Sensed {
   JointCommand command;
-  ContactEstimate contact;
-  StateEstimate estimate;
-  Adaptation adaptation;
   double model_mass_kg = 0.0;  // that gait, MPC and body control act on
   bool operating = false;      // false while standing up
   bool wbc_updated = false, mpc_updated = false;
@@ -112,20 +104,8 @@ struct SolverFaults {
   SolverFault mpc = SolverFault::kNone, wbc = SolverFault::kNone;
 };
 
-/// The truth in place of what one stage finds, for one step: to see what would have happened if
-/// that stage had been right. Stages run on all the same, and what comes after them takes the
-/// truth. An empty field changes nothing.
-struct TrueInputs {
-  /// In place of the estimated state, in the true world. Place and heading at which the
-  /// substitution begins stay those of the estimate, since the plans in force are laid out in its
-  /// world.
-  std::optional<RobotState> state;
-  std::optional<LegArray<bool>> contact;       // in place of the fused contact
-  std::optional<core::ModelParameters> trunk;  // in place of the adapted model
-  /// The ground itself in place of the plane through the last footholds: footholds lie on it, and
-  /// the plane that body and swing keep to is laid through it. Borrowed for the step.
-  const LocalGround* ground = nullptr;
-};
+/// The parts of the parameters that sensing takes.
+[[nodiscard]] SensingParams SensingOf(const ControllerParams& params);
 
 /// @returns true if a stage needs SensorFrame::truth.
 [[nodiscard]] bool NeedsTruth(const ControllerParams& params) noexcept;
@@ -168,14 +148,14 @@ class Controller {
   /// Everything that did not go to plan, since the start.
   [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
   /// What gait, MPC and body control act on.
-  [[nodiscard]] const core::ModelParameters& model() const noexcept { return model_.parameters(); }
+  [[nodiscard]] const core::ModelParameters& model() const noexcept {
+    return sensing_.model().parameters();
+  }
   [[nodiscard]] const ConvexMpc& mpc() const noexcept { return mpc_->mpc(); }
   [[nodiscard]] const WholeBodyController& wbc() const noexcept { return *wbc_; }
 
  private:
   void Sense(const SensorFrame& z, const TrueInputs& true_inputs) noexcept;
-  void SubstituteState(const TrueInputs& true_inputs) noexcept;
-  void UpdateModel(const TrueInputs& true_inputs) noexcept;
   void StepPlans(const Command& command, const LocalGround* ground) noexcept;
   void TakePlan(SolverFault fault) noexcept;
   void StepBody(SolverFault fault) noexcept;
@@ -193,12 +173,8 @@ class Controller {
   int mpc_every_, wbc_every_;
   double torque_shortfall_ = 0.0;
   bool operating_;
-  core::WholeBodyModel model_;
   double foot_radius_m_;
-  SampleGuard samples_;
-  std::optional<ContactEstimator> contact_;
-  core::ClonePtr<StateEstimator> estimator_;
-  core::ClonePtr<ModelAdapter> adapter_;
+  Sensing sensing_;
   StandUp stand_up_;
   core::ClonePtr<GaitSequencer> gait_;
   ReferencePlanner reference_planner_;
@@ -211,7 +187,6 @@ class Controller {
   StageQuality quality_;
   Supervisor supervisor_;
 
-  core::WholeBody wb_;
   BodyReference reference_;
   FootholdPlan footholds_;
   struct DatedPlan {
@@ -221,8 +196,6 @@ class Controller {
   DatedPlan active_, late_;  // in force; came too late for the last tick
   std::int64_t mpc_since_ = 0, contacts_step_ = 0, command_step_ = 0;
   bool body_answered_ = true;
-  std::optional<core::WorldShift> from_truth_;  // to the estimate's world, while that is replaced
-  bool model_is_true_ = false;
   Counters counters_;
   ControlOutput out_;
 };

@@ -17,6 +17,7 @@ void AddCheckQps(CLI::App& app, int& exit_code);
 void AddSchema(CLI::App& app);
 void AddVerify(CLI::App& app, int& exit_code);
 void AddReplay(CLI::App& app, int& exit_code);
+void AddScenarioFrom(CLI::App& app);
 void AddExport(CLI::App& app, int& exit_code);
 
 }  // namespace scoria::app

@@ -100,10 +100,9 @@ logs::ContactsRow MakeContacts(const ContactEstimate& c, bool has_foot_sensors) 
   return row;
 }
 
-logs::ModelRow MakeModel(const controller::ControlOutput& c) {
-  const controller::Adaptation& learned = c.adaptation;
+logs::ModelRow MakeModel(const controller::Adaptation& learned, double used_mass_kg) {
   logs::ModelRow row;
-  row.used_mass_kg = c.model_mass_kg;
+  row.used_mass_kg = used_mass_kg;
   if (learned.mass_kg > 0.0)
     row.learned = {learned.mass_kg, std::sqrt(learned.P(0, 0)), ToArray(learned.p_BC),
                    learned.tared};
@@ -112,13 +111,18 @@ logs::ModelRow MakeModel(const controller::ControlOutput& c) {
 
 }  // namespace
 
+void FillSensed(const controller::Sensed& sensed, double used_mass_kg, bool has_foot_sensors,
+                logs::Row& row) {
+  row.estimate = MakeEstimate(sensed.estimate);
+  row.contacts = MakeContacts(sensed.contact, has_foot_sensors);
+  row.model = MakeModel(sensed.adaptation, used_mass_kg);
+}
+
 void FillControl(const controller::ControlOutput& control, bool has_foot_sensors, logs::Row& row) {
   row.plan = MakePlan(control);
   row.reference = {ToArray(control.reference.rpy_rad), ToArray(control.reference.p_WC),
                    ToArray(control.reference.v_WC)};
-  row.estimate = MakeEstimate(control.estimate);
-  row.contacts = MakeContacts(control.contact, has_foot_sensors);
-  row.model = MakeModel(control);
+  FillSensed(control, control.model_mass_kg, has_foot_sensors, row);
   row.supervision = {control.qualities, control.fallen_back};
 }
 

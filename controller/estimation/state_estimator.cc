@@ -2,6 +2,7 @@
 #include "controller/estimation/state_estimator.h"
 
 #include "controller/estimation/inekf_estimator.h"
+#include "controller/estimation/leg_odometry.h"
 #include "controller/estimation/linear_kf.h"
 
 namespace scoria::controller {
@@ -56,6 +57,9 @@ std::unique_ptr<StateEstimator> MakeStateEstimator(const EstimatorParams& params
     }
     std::unique_ptr<StateEstimator> operator()(const LinearKfParams& p) const {
       return std::make_unique<LinearKf>(p, robot, gravity_mps2, placement);
+    }
+    std::unique_ptr<StateEstimator> operator()(const LegOdometryParams& p) const {
+      return std::make_unique<LegOdometry>(p, robot, placement);
     }
     std::unique_ptr<StateEstimator> operator()(const TruthEstimatorParams&) const {
       return std::make_unique<TruthEstimator>();

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "controller/estimation/inekf_estimator_params.h"
+#include "controller/estimation/leg_odometry_params.h"
 #include "controller/estimation/linear_kf_params.h"
 #include "core/config/field.h"
 #include "core/robot/contact.h"
@@ -72,7 +73,8 @@ struct TruthEstimatorParams {
   bool operator==(const TruthEstimatorParams&) const = default;
 };
 
-using EstimatorParams = std::variant<InekfEstimatorParams, LinearKfParams, TruthEstimatorParams>;
+using EstimatorParams =
+    std::variant<InekfEstimatorParams, LinearKfParams, LegOdometryParams, TruthEstimatorParams>;
 
 /// @returns true if the estimator needs SensorFrame::truth.
 [[nodiscard]] bool NeedsTruth(const EstimatorParams& params) noexcept;

@@ -82,7 +82,8 @@ TEST(Controller, SeesTheSensorsAlone) {
   ControllerParams params;
   EXPECT_FALSE(NeedsTruth(params));
   for (const EstimatorParams& estimator :
-       {EstimatorParams(InekfEstimatorParams{}), EstimatorParams(LinearKfParams{})}) {
+       {EstimatorParams(InekfEstimatorParams{}), EstimatorParams(LinearKfParams{}),
+        EstimatorParams(LegOdometryParams{})}) {
     params.estimator = estimator;
     EXPECT_FALSE(NeedsTruth(params));
     Controller blind(params, test::Go2(), 9.81, 0.001), tempted(params, test::Go2(), 9.81, 0.001);

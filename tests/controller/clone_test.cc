@@ -72,7 +72,7 @@ TEST(Clone, EveryGait) {
 TEST(Clone, EveryEstimator) {
   for (const EstimatorParams& estimator :
        {EstimatorParams(InekfEstimatorParams{}), EstimatorParams(LinearKfParams{}),
-        EstimatorParams(TruthEstimatorParams{})}) {
+        EstimatorParams(LegOdometryParams{}), EstimatorParams(TruthEstimatorParams{})}) {
     LoopParams params;
     params.controller.estimator = estimator;
     ExpectClonesAgree(params);

@@ -289,7 +289,9 @@ INSTANTIATE_TEST_SUITE_P(
                  {"contact.source=hierarchy", "contact.source=sensor",
                   "contact.source=momentum_observer", "contact.source=gait_phase",
                   "contact.source=truth"}},
-        Variants{"estimator", {"estimator.type=inekf", "estimator.type=linear_kf"}},
+        Variants{
+            "estimator",
+            {"estimator.type=inekf", "estimator.type=linear_kf", "estimator.type=leg_odometry"}},
         Variants{"adaptation",
                  {"adaptation.type=none", "adaptation.type=kf", "adaptation.type=rls",
                   "adaptation.type=kf_plus"}}),

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <array>
 #include <limits>
+#include <string>
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
+#include "controller/estimation/leg_odometry.h"
 #include "controller/estimation/rest_attitude.h"
 #include "controller/estimation/sample_guard.h"
 #include "controller/estimation/state_estimator.h"
@@ -151,7 +154,8 @@ TEST_P(Estimator, HandsItsGyroBiasAndCovarianceToTheNext) {
   StateEstimate last;
   for (int i = 0; i < 2000; ++i) last = Step(false);
   for (const EstimatorParams& next_params :
-       {EstimatorParams(InekfEstimatorParams{}), EstimatorParams(LinearKfParams{})}) {
+       {EstimatorParams(InekfEstimatorParams{}), EstimatorParams(LinearKfParams{}),
+        EstimatorParams(LegOdometryParams{})}) {
     const auto next = MakeStateEstimator(next_params, test::Go2(), 9.81, {});
     next->Continue(last, 1.0);
     const StateEstimate first =
@@ -168,10 +172,38 @@ TEST_P(Estimator, HandsItsGyroBiasAndCovarianceToTheNext) {
   }
 }
 
+std::string EstimatorName(const ::testing::TestParamInfo<EstimatorParams>& info) {
+  constexpr std::array kNames = {"inekf", "linear_kf", "leg_odometry"};
+  return kNames[info.index];
+}
+
 INSTANTIATE_TEST_SUITE_P(Of, Estimator,
                          ::testing::Values(EstimatorParams(InekfEstimatorParams{}),
-                                           EstimatorParams(LinearKfParams{})),
-                         [](const auto& test) { return test.index == 0 ? "inekf" : "linear_kf"; });
+                                           EstimatorParams(LinearKfParams{}),
+                                           EstimatorParams(LegOdometryParams{})),
+                         EstimatorName);
+
+TEST(LegOdometry, KeepsTheStandingFeetWhereTheyAre) {
+  const core::RobotDescription robot = test::Go2();
+  RobotState state = test::StandingState();
+  state.R_WB = core::RotationFromRpy({0.1, -0.2, 0.7});
+  state.v_WB = Vec3(0.3, -0.2, 0.1);
+  state.w_WB = Vec3(0.4, 0.5, -0.6);
+  for (const Leg leg : kLegs) {  // joint speeds at which the foot stands still
+    const core::LegKinematics foot = core::CalcLegKinematics(robot.legs[leg], state.q[leg]);
+    const Vec3 v_W = state.v_WB + state.w_WB.cross(state.R_WB * foot.p_BF);
+    state.qd[leg] = foot.J.inverse() * (state.R_WB.transpose() * -v_W);
+  }
+  state.qd[Leg::kHR].setConstant(9.0);  // swings
+  LegArray<bool> contact(true);
+  contact[Leg::kHR] = false;
+  const std::optional<Vec3> v_W =
+      StanceVelocity(robot, state.R_WB, state.w_WB, state.q, state.qd, contact);
+  ASSERT_TRUE(v_W);
+  EXPECT_LT((*v_W - state.v_WB).norm(), 1e-12);
+  EXPECT_FALSE(
+      StanceVelocity(robot, state.R_WB, state.w_WB, state.q, state.qd, LegArray<bool>(false)));
+}
 
 }  // namespace
 }  // namespace scoria::controller

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "analysis/field/foothold_roughness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include <Eigen/Cholesky>
+
+namespace scoria::analysis {
+namespace {
+
+/// Sums of one stretch without a break.
+struct Pairs {
+  double sum_m2 = 0.0;
+  std::uint64_t count = 0;
+
+  void Add(std::span<const Vec3> footholds, double lag_m) {
+    if (footholds.size() < 4) return;
+    Vec3 mean = Vec3::Zero();
+    for (const Vec3& p : footholds) mean += p / static_cast<double>(footholds.size());
+    Eigen::Matrix2d A = 1e-6 * Eigen::Matrix2d::Identity();  // keeps a straight way solvable
+    Vec2 b = Vec2::Zero();
+    for (const Vec3& p : footholds) {
+      const Vec2 d = (p - mean).head<2>();
+      A += d * d.transpose();
+      b += d * (p.z() - mean.z());
+    }
+    const Vec2 slope = A.ldlt().solve(b);
+    for (std::size_t i = 0; i < footholds.size(); ++i) {
+      const std::size_t end = std::min(footholds.size(), i + 1 + FootholdRoughness::kPairs);
+      for (std::size_t j = i + 1; j < end; ++j) {
+        const Vec3 d = footholds[j] - footholds[i];
+        const double far_m = d.head<2>().norm();
+        if (far_m < lag_m / FootholdRoughness::kTolerance ||
+            far_m > lag_m * FootholdRoughness::kTolerance)
+          continue;
+        const double rise_m = d.z() - slope.dot(d.head<2>());
+        sum_m2 += rise_m * rise_m;
+        ++count;
+      }
+    }
+  }
+};
+
+}  // namespace
+
+std::optional<double> FootholdRoughness::Nu_m(double lag_m) const {
+  constexpr std::uint64_t kLeast = 30;
+  Pairs pairs;
+  std::size_t begin = 0;
+  const auto add = [&](std::size_t end) {
+    pairs.Add(std::span(footholds_).subspan(begin, end - begin), lag_m);
+    begin = end;
+  };
+  for (const std::size_t end : breaks_) add(end);
+  add(footholds_.size());
+  if (pairs.count < kLeast) return std::nullopt;
+  return std::sqrt(pairs.sum_m2 / static_cast<double>(pairs.count));
+}
+
+}  // namespace scoria::analysis

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "controller/estimation/leg_odometry.h"
+
+#include "core/math/so3.h"
+
+namespace scoria::controller {
+
+std::optional<Vec3> StanceVelocity(const core::RobotDescription& robot, const Mat3& R_WB,
+                                   const Vec3& w_WB_W, const LegArray<Vec3>& q,
+                                   const LegArray<Vec3>& qd,
+                                   const LegArray<bool>& contact) noexcept {
+  Vec3 sum_W = Vec3::Zero();
+  int standing = 0;
+  for (const Leg leg : kLegs) {
+    if (!contact[leg]) continue;
+    const core::LegKinematics foot = core::CalcLegKinematics(robot.legs[leg], q[leg]);
+    const Vec3 p_BF_W = R_WB * foot.p_BF;
+    sum_W -= w_WB_W.cross(p_BF_W) + R_WB * (foot.J * qd[leg]);
+    ++standing;
+  }
+  if (standing == 0) return std::nullopt;
+  return Vec3(sum_W / standing);
+}
+
+StateEstimate LegOdometry::Update(const EstimatorInput& in, Counters&) noexcept {
+  StateEstimate out;
+  if (in.at_rest || !started_) {
+    started_ = true;
+    rest_.Add(in.z.a_WS_S, in.z.w_WS_S, in.imu_dt_s);
+    gyro_bias_S_ = rest_.GyroBias_S();
+    state_ = {};
+    state_.R_WB = rest_.R_WB(robot_.R_BS, placement_.yaw_rad);
+    state_.p_WB = StandingPlace(robot_, placement_, state_.R_WB, in.z.q);
+    out.ready = !in.at_rest || rest_.IsReady();
+  } else {
+    const Vec3 w_WB_B = robot_.R_BS * (in.z.w_WS_S - gyro_bias_S_);
+    state_.R_WB = state_.R_WB * core::ExpSo3(w_WB_B * in.imu_dt_s);
+    state_.w_WB = state_.R_WB * w_WB_B;
+    if (const std::optional<Vec3> v_W =
+            StanceVelocity(robot_, state_.R_WB, state_.w_WB, in.z.q, in.z.qd, in.contact.contact))
+      state_.v_WB = *v_W;
+    state_.p_WB += in.imu_dt_s * state_.v_WB;
+  }
+  out.state = state_;
+  out.state.q = in.z.q;
+  out.state.qd = in.z.qd;
+  out.gyro_bias_S = gyro_bias_S_;
+  return out;
+}
+
+void LegOdometry::Continue(const StateEstimate& from, double) noexcept {
+  started_ = true;
+  state_ = from.state;
+  if (from.gyro_bias_S) gyro_bias_S_ = *from.gyro_bias_S;
+}
+
+}  // namespace scoria::controller
