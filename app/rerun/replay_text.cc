@@ -14,7 +14,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kDegPerRad = 180.0 / std::numbers::pi, kMmPerM = 1e3;
+constexpr double kDegPerRad = 180.0 / std::numbers::pi, kMmPerM = 1e3, kMsPerS = 1e3,
+                 kPercent = 100.0;
 
 using Number = std::optional<double>;
 
@@ -35,6 +36,10 @@ Number Drift(const analysis::EstimationMetrics& m, double analysis::DriftSummary
   return If(drift.segments > 0 && m.rows > 0, drift.*field);
 }
 
+const analysis::ContactQuality& Fused(const analysis::EstimationMetrics& m) {
+  return m.contact.of(analysis::ContactDetector::kFused);
+}
+
 std::vector<Score> Scores() {
   using M = analysis::EstimationMetrics;
   using V = VariantResult;
@@ -53,6 +58,13 @@ std::vector<Score> Scores() {
       {"NEES over its freedoms", "", 2,
        [](const M& m) { return If(m.nees_rows > 0, m.nees_ratio); }},
       {"NIS over its freedoms", "", 2, [](const M& m) { return If(m.nis_dof > 0, m.nis_ratio); }},
+      {"contacts right", "%", 2,
+       [](const M& m) { return If(m.contact.HasDetection(), kPercent * Fused(m).Accuracy()); }},
+      {"touchdown found after", "ms", 1,
+       [](const M& m) {
+         const analysis::DelayHistogram& delays = Fused(m).touchdown.delays;
+         return If(m.contact.HasDetection() && delays.count() > 0, kMsPerS * delays.Quantile(0.5));
+       }},
       {"standing feet's speed", "m/s", 4, nullptr,
        [](const V& v) {
          return If(v.consistency.stance_samples > 0, v.consistency.stance_speed_rms_mps);

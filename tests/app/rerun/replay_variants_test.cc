@@ -177,6 +177,10 @@ fs::path WriteGo1(const fs::path& folder, const fs::path& data) {
   return folder / "go1.yaml";
 }
 
+double Drift(const VariantResult& v) {
+  return analysis::SummariseDrift(v.estimation).horizontal_pct;
+}
+
 // The log begins in motion, has no foot sensors, and its torques and speeds are of its own step.
 TEST(ReplayVariants, WeighTheGo1OfAnotherSimulator) {
   const std::optional<fs::path> data = test::Go1Folder();
@@ -185,18 +189,54 @@ TEST(ReplayVariants, WeighTheGo1OfAnotherSimulator) {
   LogInputOptions log{.log = *data / "go1_trot_1khz.csv", .robot = WriteGo1(folder.path(), *data)};
   const std::vector<Variant> variants = {
       {"kf_plus",
-       {"controller.adaptation.type=kf_plus", "controller.adaptation.tare.enabled=false"}},
-      {"feet", {"controller.estimator.type=leg_odometry"}}};
+       {"controller.adaptation.type=kf_plus", "controller.adaptation.tare.enabled=false"}}};
   const ReplayReport report = ReplayVariants(log, variants, {}, 2);
   const VariantResult& kf_plus = report.variants[0];
   ASSERT_TRUE(kf_plus.mass);
   EXPECT_NEAR(kf_plus.mass->mass_kg, 14.10, 0.03 * 14.10);
   EXPECT_TRUE(kf_plus.started_in_motion);
-  RecordProperty("mass_kg", std::to_string(kf_plus.mass->mass_kg));
-  const auto drift = [](const VariantResult& v) {
-    return analysis::SummariseDrift(v.estimation).horizontal_pct;
-  };
-  EXPECT_LT(drift(kf_plus), drift(report.variants[1]));
+  const analysis::EdgeQuality& touchdown =
+      kf_plus.estimation.contact.of(analysis::ContactDetector::kFused).touchdown;
+  EXPECT_LE(std::abs(touchdown.delays.Quantile(0.5)), 0.010);
+  EXPECT_LE(touchdown.delays.Quantile(0.95), 0.010);
+}
+
+TEST(ReplayVariants, LegsWeighWhatTheFeetOfARealGo2Carry) {
+  const char* root = std::getenv("SCORIA_REFERENCE_DATA");
+  if (root == nullptr) GTEST_SKIP() << "SCORIA_REFERENCE_DATA is not set";
+  int walks = 0;
+  for (const auto& entry : fs::directory_iterator(fs::path(root) / "logs/go2_entangle_lowstate")) {
+    const std::string name = entry.path().filename().string();
+    if (entry.path().extension() != ".csv" || name.find("label") != std::string::npos) continue;
+    SCOPED_TRACE(name);
+    const ReplayReport report = ReplayVariants(
+        {.log = entry.path(), .robot = fs::path(SCORIA_SOURCE_DIR) / "robots/go2/go2.yaml"},
+        {{"kf_plus",
+          {"controller.adaptation.type=kf_plus", "controller.adaptation.tare.enabled=false"}}},
+        {}, 1);
+    const VariantResult& v = report.variants[0];
+    ASSERT_TRUE(v.mass && v.feet_carry_kg);
+    EXPECT_NEAR(v.mass->mass_kg, *v.feet_carry_kg, 0.15 * *v.feet_carry_kg);
+    ++walks;
+  }
+  EXPECT_EQ(walks, 3);
+}
+
+// Of robots and simulators that are not ours.
+TEST(ReplayVariants, TheFilterDriftsLessThanTheLegs) {
+  const std::optional<fs::path> go1 = test::Go1Folder();
+  if (!go1) GTEST_SKIP() << "SCORIA_REFERENCE_DATA is not set";
+  const fs::path logs = go1->parent_path();
+  const fs::path go2 = fs::path(SCORIA_SOURCE_DIR) / "robots/go2/go2.yaml";
+  const test::TemporaryFolder folder;
+  for (const LogInputOptions& log :
+       {LogInputOptions{.log = *go1 / "go1_trot_1khz.csv", .robot = WriteGo1(folder.path(), *go1)},
+        LogInputOptions{.log = logs / "go2_mujoco_serow/go2_walk.csv", .robot = go2},
+        LogInputOptions{.log = logs / "go2_vicon_orl/test_4", .robot = go2}}) {
+    SCOPED_TRACE(log.log);
+    const ReplayReport report = ReplayVariants(log, kEstimators, {}, 2);
+    EXPECT_LT(Drift(report.variants[0]), Drift(report.variants[1]));
+  }
 }
 
 }  // namespace
