@@ -155,6 +155,7 @@ class EstimationAccumulator {
   std::uint64_t nees_rows_ = 0, nis_rows_ = 0, nis_dof_ = 0;
 };
 
+void to_json(nlohmann::json& j, const RelativePoseError& e);
 void to_json(nlohmann::json& j, const EstimationMetrics& m);
 void from_json(const nlohmann::json& j, EstimationMetrics& m);
 
