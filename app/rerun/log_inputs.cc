@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/field/aligned_rows.h"
 #include "app/run/log_origin.h"
 #include "app/scenario/config_kinds.h"
 #include "core/config/archive.h"
@@ -169,6 +170,16 @@ logs::RowsReport ForEachInputRow(const LogInputOptions& options,
   return {std::nullopt, problem};
 }
 
+logs::RowsReport ForEachInputRow(const LogInputOptions& options, const LogInputs& inputs,
+                                 const std::function<void(const logs::Row&)>& on_row) {
+  if (!inputs.alignment || !inputs.alignment->alignment) return ForEachInputRow(options, on_row);
+  analysis::AlignedRows aligned(*inputs.alignment->alignment, on_row);
+  logs::RowsReport report =
+      ForEachInputRow(options, [&](const logs::Row& row) { aligned.Add(row); });
+  aligned.Finish();
+  return report;
+}
+
 LogInputs SurveyInputs(const LogInputOptions& options) {
   LogInputs inputs;
   Held held;
@@ -195,6 +206,10 @@ LogInputs SurveyInputs(const LogInputOptions& options) {
   }
   ChooseRobot(options, report.mapping ? report.mapping->robot : std::filesystem::path(), inputs);
   if (!inputs.foot_forces) inputs.robot.config.has_foot_sensors = false;
+  if (!inputs.truth_is_of_markers) return inputs;
+  analysis::TruthAlignmentEstimator estimator(&inputs.robot, inputs.gravity_mps2);
+  (void)ForEachInputRow(options, [&](const logs::Row& row) { estimator.AddRow(row); });
+  inputs.alignment = estimator.Estimate();
   return inputs;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/field/truth_alignment.h"
 #include "controller/controller.h"
 #include "core/robot/description.h"
 #include "logs/mapping/any_rows.h"
@@ -45,8 +46,14 @@ struct LogInputs {
   bool command = false, estimate = false;  // those of the log
   std::string mapping;                     // its name; empty: rows of scoria's
   bool truth_is_of_markers = false;        // and their place on the trunk is not known
-  std::string problem;                     // what is wrong with the log, in words
+  /// Delay and lever arm of a truth of markers.
+  std::optional<analysis::TruthAlignmentResult> alignment = std::nullopt;
+  std::string problem;  // what is wrong with the log, in words
 };
+
+/// As above, a truth of markers turned into that of the trunk where its alignment is known.
+logs::RowsReport ForEachInputRow(const LogInputOptions& options, const LogInputs& inputs,
+                                 const std::function<void(const logs::Row&)>& on_row);
 
 /// True for a row of the log's own, which may have every group that the log has.
 [[nodiscard]] inline bool IsWhole(const LogInputs& inputs, const logs::Row& row) {

@@ -24,8 +24,9 @@ struct Score {
   const char* name;
   const char* unit;
   int digits;
-  std::function<Number(const analysis::EstimationMetrics&)> of = nullptr;  // nullptr: a variant's
-  std::function<Number(const VariantResult&)> of_variant = nullptr;        // alone
+  std::function<Number(const analysis::EstimationMetrics&)> of = nullptr;  // one of the three
+  std::function<Number(const VariantResult&)> of_variant = nullptr;        // not of the log's own
+  std::function<Number(const analysis::TrajectoryError&)> of_trajectory = nullptr;
 };
 
 Number If(bool known, double value) { return known ? Number(value) : std::nullopt; }
@@ -43,11 +44,14 @@ const analysis::ContactQuality& Fused(const analysis::EstimationMetrics& m) {
 std::vector<Score> Scores() {
   using M = analysis::EstimationMetrics;
   using V = VariantResult;
+  using T = analysis::TrajectoryError;
   using D = analysis::DriftSummary;
   return {
       {"drift, horizontal", "% of way", 2, [](const M& m) { return Drift(m, &D::horizontal_pct); }},
       {"drift, vertical", "% of way", 2, [](const M& m) { return Drift(m, &D::vertical_pct); }},
       {"drift, yaw", "deg/m", 3, [](const M& m) { return Drift(m, &D::yaw_deg_per_m); }},
+      {"absolute error", "mm", 1, nullptr, nullptr,
+       [](const T& e) { return If(e.stretches > 0, kMmPerM * e.ate_m); }},
       {"relative error, 1 m", "mm", 1,
        [](const M& m) { return If(m.rpe_1m.stretches > 0, kMmPerM * m.rpe_1m.horizontal_rms_m); }},
       {"velocity error", "m/s", 4, [](const M& m) { return If(m.rows > 0, m.velocity_rmse_mps); }},
@@ -86,11 +90,14 @@ std::vector<Score> Scores() {
 }
 
 Number Value(const Score& score, const VariantResult& v) {
+  if (score.of_trajectory) return score.of_trajectory(v.trajectory);
   return score.of ? score.of(v.estimation) : score.of_variant(v);
 }
 
 Number LoggedValue(const Score& score, const ReplayReport& report) {
-  return score.of && report.logged ? score.of(*report.logged) : std::nullopt;
+  if (!report.logged) return std::nullopt;
+  if (score.of_trajectory) return score.of_trajectory(*report.logged_trajectory);
+  return score.of ? score.of(*report.logged) : std::nullopt;
 }
 
 std::string Cell(const Score& score, const Number& value) {
@@ -111,9 +118,11 @@ std::string DescribeInputs(const ReplayReport& report) {
   say(in.plan, "gait plan");
   say(in.truth, in.truth_is_of_markers ? "truth of markers" : "truth");
   say(in.true_contacts, "true contacts");
-  return fmt::format("{} rows at {:.1f} Hz, {:.1f} s; robot {}{}\nholds {}\n", in.rows,
+  const std::string alignment =
+      in.alignment ? analysis::DescribeAlignment(*in.alignment) + "\n" : "";
+  return fmt::format("{} rows at {:.1f} Hz, {:.1f} s; robot {}{}\nholds {}\n{}", in.rows,
                      1.0 / in.period_s, in.last_s - in.first_s, in.robot.config.name,
-                     in.mapping.empty() ? "" : ", mapping " + in.mapping, held);
+                     in.mapping.empty() ? "" : ", mapping " + in.mapping, held, alignment);
 }
 
 std::string DescribeRemarks(const VariantResult& v) {
@@ -121,6 +130,8 @@ std::string DescribeRemarks(const VariantResult& v) {
   for (const std::string& remark : v.remarks) text += fmt::format("{}: {}\n", v.name, remark);
   if (v.started_in_motion)
     text += fmt::format("{}: the log begins in motion: the start is unsure\n", v.name);
+  if (v.trajectory.stretches == 0 && v.groups[static_cast<std::size_t>(logs::RowGroup::kTruth)])
+    text += fmt::format("{}: {}\n", v.name, v.trajectory.Refusal());
   if (v.gaps > 0)
     text += fmt::format("{}: {} gaps, after each a new start of the way, unsure\n", v.name, v.gaps);
   if (v.mass && !v.mass->tared)
@@ -173,12 +184,14 @@ json ReplayJson(const ReplayReport& report) {
             {"problem", report.inputs.problem}};
   if (report.logged)
     j["logged"] = scores([&](const Score& score) { return LoggedValue(score, report); });
+  if (report.inputs.alignment) j["alignment"] = *report.inputs.alignment;
   for (const VariantResult& v : report.variants) {
     json one = {{"name", v.name},
                 {"set", v.set},
                 {"remarks", v.remarks},
                 {"started_in_motion", v.started_in_motion},
                 {"scores", scores([&](const Score& score) { return Value(score, v); })},
+                {"trajectory", v.trajectory},
                 {"estimation", v.estimation}};
     j["variants"].push_back(std::move(one));
   }

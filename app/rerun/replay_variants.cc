@@ -30,6 +30,31 @@ core::ConfigError VariantError(const std::string& text, const std::string& rule)
   return {{}, "", fmt::format("--variant {}: {}", text, rule)};
 }
 
+/// Trajectory errors of the rows of a robot that walks.
+class TrajectoryScore {
+ public:
+  /// @pre the row has an episode.
+  void Add(const logs::Row& row) {
+    const bool walks = row.episode->operating && !row.episode->fallen;
+    if (walks_ && (!walks || row.episode->segment != segment_)) errors_.Break();
+    walks_ = walks;
+    segment_ = row.episode->segment;
+    if (!walks || !row.truth || !row.estimate) return;
+    const logs::TruthRow& truth = *row.truth;
+    const logs::EstimateRow& estimate = *row.estimate;
+    errors_.Add(
+        {ToVec3(truth.p_WB_m), ToVec3(estimate.p_WB_m), truth.rpy_rad[2], estimate.rpy_rad[2]});
+  }
+  [[nodiscard]] analysis::TrajectoryError Finish() { return errors_.Finish(); }
+
+ private:
+  static Vec3 ToVec3(const logs::Array3& v) { return {v[0], v[1], v[2]}; }
+
+  analysis::TrajectoryErrorAccumulator errors_;
+  bool walks_ = false;
+  std::uint32_t segment_ = 0;
+};
+
 /// One variant, its scores and its files.
 class VariantRun {
  public:
@@ -53,6 +78,7 @@ class VariantRun {
 
   [[nodiscard]] VariantResult Finish(std::vector<fs::path>& files) {
     result_.estimation = estimation_.Finish();
+    result_.trajectory = trajectory_.Finish();
     result_.consistency = consistency_.Finish();
     result_.gaps = observer_.gaps();
     result_.started_in_motion = observer_.started_in_motion();
@@ -87,6 +113,7 @@ class VariantRun {
                mine);
     result_.groups |= logs::GroupsOf(mine);
     estimation_.AddRow(mine);
+    trajectory_.Add(mine);
     if (tum_) tum_->Add(mine.time_s, mine.estimate->p_WB_m, mine.estimate->rpy_rad);
     if (keep_rows_) kept_.push_back(std::move(mine));
   }
@@ -118,6 +145,7 @@ class VariantRun {
   LogObserver observer_;
   VariantResult result_;
   analysis::EstimationAccumulator estimation_;
+  TrajectoryScore trajectory_;
   analysis::ConsistencyAccumulator consistency_;
   std::uint64_t mass_rows_ = 0, feet_rows_ = 0;
   double sum_mass_kg_ = 0.0, sum_feet_N_ = 0.0, last_sigma_kg_ = 0.0;
@@ -147,6 +175,7 @@ class LoggedRun {
     if (!scored.episode) scored.episode = logs::EpisodeRow{.operating = true};
     groups_ |= logs::GroupsOf(scored);
     estimation_.AddRow(scored);
+    trajectory_.Add(scored);
   }
 
   void Add(const std::string& variant, const std::vector<logs::Row>& rows) {
@@ -155,7 +184,10 @@ class LoggedRun {
   }
 
   void Finish(ReplayReport& report) {
-    if (inputs_.estimate) report.logged = estimation_.Finish();
+    if (inputs_.estimate) {
+      report.logged = estimation_.Finish();
+      report.logged_trajectory = trajectory_.Finish();
+    }
     report.logged_groups = groups_;
     if (log_) report.files.push_back(log_->Publish());
     if (estimate_) report.files.push_back(estimate_->Publish());
@@ -167,6 +199,7 @@ class LoggedRun {
   std::unique_ptr<ReplayLogFile> log_;
   std::unique_ptr<TumFile> estimate_, truth_;
   analysis::EstimationAccumulator estimation_;
+  TrajectoryScore trajectory_;
   logs::RowGroups groups_;
 };
 
@@ -236,6 +269,7 @@ ReplayReport ReplayVariants(const LogInputOptions& options, const std::vector<Va
   ReplayReport report{.inputs = SurveyInputs(options),
                       .logged = {},
                       .logged_groups = {},
+                      .logged_trajectory = {},
                       .variants = {},
                       .files = {}};
   CheckOutputs(outputs, variants);
@@ -249,7 +283,7 @@ ReplayReport ReplayVariants(const LogInputOptions& options, const std::vector<Va
     for (std::size_t i = 0; i < runs.size(); ++i) logged.Add(variants[i].name, runs[i]->kept());
     batch.clear();
   };
-  (void)ForEachInputRow(options, [&](const logs::Row& row) {
+  (void)ForEachInputRow(options, report.inputs, [&](const logs::Row& row) {
     logged.Take(row);
     batch.push_back(row);
     if (batch.size() == kBatch) flush();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/field/estimate_consistency.h"
+#include "analysis/field/trajectory_error.h"
 #include "analysis/metrics/estimation_metrics.h"
 #include "app/rerun/log_inputs.h"
 
@@ -44,6 +45,7 @@ struct VariantResult {
   std::uint64_t gaps = 0;
   analysis::EstimationMetrics estimation;  // against the log's truth, and of innovations
   logs::RowGroups groups;                  // that the scored rows had
+  analysis::TrajectoryError trajectory;    // after alignment by yaw and translation
   analysis::EstimateConsistency consistency;
   std::optional<LearnedMass> mass;
   /// What the vertical forces on all feet carry, by the momentum observer: a mean over the same
@@ -55,6 +57,7 @@ struct ReplayReport {
   LogInputs inputs;
   std::optional<analysis::EstimationMetrics> logged;  // of the log's own estimate
   logs::RowGroups logged_groups;
+  std::optional<analysis::TrajectoryError> logged_trajectory;
   std::vector<VariantResult> variants;
   std::vector<std::filesystem::path> files;  // that were written
 };
