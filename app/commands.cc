@@ -19,6 +19,7 @@ void AddCommands(CLI::App& app, int& exit_code) {
   AddVerify(app, exit_code);
   AddReplay(app, exit_code);
   AddScenarioFrom(app);
+  AddAnalyze(app);
   AddExport(app, exit_code);
 }
 

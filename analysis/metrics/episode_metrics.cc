@@ -37,6 +37,11 @@ EnergyBudget& EnergyBudget::operator+=(const EnergyBudget& other) noexcept {
 EpisodeMetrics& EpisodeMetrics::operator+=(const EpisodeMetrics& other) {
   episodes += other.episodes;
   groups = groups && other.groups ? std::optional(*groups | *other.groups) : std::nullopt;
+  for (const auto& [group, source] : other.substitutes) {
+    std::string& own = substitutes[group];
+    if (own.find(source) == std::string::npos) own += (own.empty() ? "" : "; ") + source;
+  }
+  withheld.insert(other.withheld.begin(), other.withheld.end());
   if (outcome && other.outcome) {
     outcome->falls += other.outcome->falls;
   } else if (other.outcome) {
@@ -51,6 +56,7 @@ EpisodeMetrics& EpisodeMetrics::operator+=(const EpisodeMetrics& other) {
   estimation += other.estimation;
   model.present = model.present || other.model.present;
   Append(model.intervals, other.model.intervals);
+  gait += other.gait;
   return *this;
 }
 

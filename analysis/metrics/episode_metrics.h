@@ -14,6 +14,7 @@
 #include "analysis/metrics/time_quantiles.h"
 #include "analysis/metrics/tracking_errors.h"
 #include "analysis/signals/falls.h"
+#include "analysis/signals/gait_timing.h"
 #include "logs/row.h"
 
 namespace scoria::analysis {
@@ -48,10 +49,11 @@ struct SpeedWindow {
   double cot_mech_abs = 0.0, cot_mech_pos = 0.0, cot_electrical = 0.0;
 };
 
-/// What only the program that ran an episode counts.
+/// What only the program that ran an episode counts, or that analysed a log.
 struct EpisodeOutcome {
-  int falls = 0, stuck = 0;
-  double real_time_factor = 0.0;
+  int falls = 0;
+  std::optional<int> stuck;                // nobody counted it in a log of a robot
+  std::optional<double> real_time_factor;  // of a simulation
 };
 
 /// Everything measured of one episode, or of several added up. Numbers that are shown come from
@@ -60,7 +62,10 @@ struct EpisodeOutcome {
 struct EpisodeMetrics {
   int episodes = 1;                       // added up
   std::optional<logs::RowGroups> groups;  // that rows had; unknown: older results
-  std::optional<EpisodeOutcome> outcome;  // none of a log
+  Substitutes substitutes;                // for groups that a robot's log lacks
+  /// By key, why a number is not given although the rows had its groups: "no battery current".
+  std::map<std::string, std::string, std::less<>> withheld;
+  std::optional<EpisodeOutcome> outcome;  // none where nobody counted
   double duration_s = 0.0, walking_s = 0.0;
   double distance_m = 0.0;        // half-second chords of the trunk's path, placements excluded
   std::optional<double> mass_kg;  // of the last row
@@ -75,6 +80,7 @@ struct EpisodeMetrics {
   std::vector<FallEvent> falls;
   EstimationMetrics estimation;
   ModelMetrics model;
+  GaitTiming gait;
   std::map<std::string, Measured> measured;  // by RowMetrics, by key
 
   /// Adds another episode's energy, way, falls, contacts, segments and intervals; what does not add

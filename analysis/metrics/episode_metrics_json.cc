@@ -37,6 +37,22 @@ void from_json(const json& j, FallEvent& f) {
     f.p_WB = Vec2(j.at("p_WB_m").at(0).get<double>(), j.at("p_WB_m").at(1).get<double>());
 }
 
+void to_json(json& j, const LegTiming& t) {
+  j = {{"strides", t.strides},
+       {"stride_s", t.stride_s},
+       {"stance_s", t.stance_s},
+       {"phase", {t.phase.real(), t.phase.imag()}},
+       {"phases", t.phases}};
+}
+
+void from_json(const json& j, LegTiming& t) {
+  j.at("strides").get_to(t.strides);
+  j.at("stride_s").get_to(t.stride_s);
+  j.at("stance_s").get_to(t.stance_s);
+  t.phase = {j.at("phase").at(0).get<double>(), j.at("phase").at(1).get<double>()};
+  j.at("phases").get_to(t.phases);
+}
+
 namespace {
 
 json ToJson(const logs::RowGroups& groups) {
@@ -80,6 +96,34 @@ void DropZeros(EpisodeMetrics& m) {
   if (m.cot && m.cot->mech_abs == 0.0 && m.cot->electrical == 0.0) m.cot.reset();
 }
 
+json ToJson(const GaitTiming& gait) {
+  json legs = json::array();
+  for (const LegTiming& leg : gait.legs) legs.push_back(leg);
+  return legs;
+}
+
+json SubstitutesToJson(const Substitutes& substitutes) {
+  json object = json::object();
+  for (const auto& [group, name] : EnumNames(RowGroup{})) {
+    const auto source = substitutes.find(group);
+    if (source != substitutes.end()) object[std::string(name)] = source->second;
+  }
+  return object;
+}
+
+/// What came with the times of the gait.
+void ReadGait(const json& j, EpisodeMetrics& m) {
+  for (const Leg leg : kLegs)
+    j.at("gait").at(static_cast<std::size_t>(leg)).get_to(m.gait.legs[leg]);
+  for (const auto& [group, name] : EnumNames(RowGroup{})) {
+    const json& all = j.at("substitutes");
+    if (const auto source = all.find(name); source != all.end())
+      m.substitutes[group] = source->get<std::string>();
+  }
+  for (const auto& [key, reason] : j.at("withheld").items())
+    m.withheld[key] = reason.get<std::string>();
+}
+
 void ReadCost(const json& j, std::optional<CostOfTransport>& cot) {
   if (j.at("cot_mech_abs").is_null()) return;
   cot.emplace();
@@ -93,7 +137,8 @@ void ReadCost(const json& j, std::optional<CostOfTransport>& cot) {
 
 void to_json(json& j, const EpisodeMetrics& m) {
   const auto had = [&](RowGroup group) {
-    return !m.groups || (*m.groups)[static_cast<std::size_t>(group)];
+    return !m.groups || (*m.groups)[static_cast<std::size_t>(group)] ||
+           m.substitutes.contains(group);
   };
   const auto cost = [&](double CostOfTransport::*kind) {
     return m.cot ? json((*m.cot).*kind) : json(nullptr);
@@ -117,6 +162,9 @@ void to_json(json& j, const EpisodeMetrics& m) {
        {"peak_foot_force_N", m.peak_foot_force_N},
        {"estimation", m.estimation},
        {"model", m.model},
+       {"gait", ToJson(m.gait)},
+       {"substitutes", SubstitutesToJson(m.substitutes)},
+       {"withheld", m.withheld},
        {"measured", m.measured}};
   if (m.groups) j["groups"] = ToJson(*m.groups);
 }
@@ -140,6 +188,7 @@ void from_json(const json& j, EpisodeMetrics& m) {
   if (j.contains("measured")) j.at("measured").get_to(m.measured);
   if (j.contains("groups")) m.groups = ToGroups(j.at("groups"));
   if (!m.groups) DropZeros(m);
+  if (j.contains("gait")) ReadGait(j, m);
   m.estimation = j.value("estimation", EstimationMetrics{});
   m.model = j.value("model", ModelMetrics{});
 }

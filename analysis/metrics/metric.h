@@ -27,8 +27,9 @@ enum class MetricFamily {
   kModel,
   kEnergy,
   kTiming,
+  kGait,
 };
-inline constexpr std::size_t kNumMetricFamilies = 8;
+inline constexpr std::size_t kNumMetricFamilies = 9;
 constexpr std::array<std::pair<MetricFamily, std::string_view>, kNumMetricFamilies> EnumNames(
     MetricFamily) {
   return {{{MetricFamily::kSafety, "safety"},
@@ -38,7 +39,8 @@ constexpr std::array<std::pair<MetricFamily, std::string_view>, kNumMetricFamili
            {MetricFamily::kContact, "contact"},
            {MetricFamily::kModel, "model"},
            {MetricFamily::kEnergy, "energy"},
-           {MetricFamily::kTiming, "timing"}}};
+           {MetricFamily::kTiming, "timing"},
+           {MetricFamily::kGait, "gait"}}};
 }
 
 /// Which direction is better.
@@ -73,6 +75,9 @@ struct MetricInfo {
   /// words there are, as "median over segments".
   std::string_view pooled_over = "episodes";
   std::string_view definition = "";  // one sentence
+  /// What it needs of the truth may be another source's in the log of a robot, which is then named
+  /// (EpisodeMetrics::substitutes).
+  bool takes_substitutes = false;
 };
 
 /// A value of an episode, and its weight in a mean over episodes.
@@ -101,6 +106,9 @@ struct Metric {
   std::unique_ptr<RowMetric> (*make)() = nullptr;
 };
 using Metrics = std::vector<Metric>;
+
+/// What stood in for groups that a log lacks, in words: {kTruth, "the robot's own estimate"}.
+using Substitutes = std::map<logs::RowGroup, std::string>;
 
 /// By key, those that were measured.
 using MetricValues = std::map<std::string, double, std::less<>>;

@@ -87,10 +87,11 @@ std::string ShownNumber(const MetricInfo& info, double value) {
 }
 
 std::vector<std::string> DescribeNotValid(const Metrics& metrics,
-                                          const std::optional<logs::RowGroups>& had) {
+                                          const std::optional<logs::RowGroups>& had,
+                                          const Substitutes& substitutes) {
   std::vector<std::pair<logs::RowGroups, std::string>> titles;  // by what is missing
   for (const Metric& m : metrics) {
-    const logs::RowGroups missing = MissingGroups(m.info.needs, had);
+    const logs::RowGroups missing = MissingGroups(m.info, had, substitutes);
     if (missing.none()) continue;
     auto same = std::find_if(titles.begin(), titles.end(),
                              [&](const auto& other) { return other.first == missing; });
@@ -112,7 +113,12 @@ std::string DescribeMetrics(const Metrics& metrics, const EpisodeMetrics& m) {
     }
     if (!items.empty()) text += Paragraph(name, items);
   }
-  for (const std::string& line : DescribeNotValid(metrics, m.groups)) text += "  " + line + "\n";
+  for (const std::string& line : DescribeNotValid(metrics, m.groups, m.substitutes))
+    text += "  " + line + "\n";
+  for (const auto& [key, reason] : m.withheld) {
+    if (const Metric* metric = FindMetric(metrics, key))
+      text += fmt::format("  {}: not valid here: {}\n", metric->info.title, reason);
+  }
   return text;
 }
 

@@ -21,7 +21,8 @@ namespace scoria::analysis {
 /// "height RMSE, roll RMSE: not valid here: the log has no truth": a line for each set of groups
 /// that `had` lacks. Empty where nothing is missing.
 [[nodiscard]] std::vector<std::string> DescribeNotValid(const Metrics& metrics,
-                                                        const std::optional<logs::RowGroups>& had);
+                                                        const std::optional<logs::RowGroups>& had,
+                                                        const Substitutes& substitutes = {});
 
 /// What was measured of an episode, a paragraph for each family, then what is not valid. Lines are
 /// indented by two and end with a newline.

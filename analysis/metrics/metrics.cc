@@ -13,6 +13,15 @@ Energy ToEnergy(const logs::EnergyRow& e) {
   return {e.mech_abs_J, e.mech_pos_J, e.electrical_J, e.battery_J};
 }
 
+/// Without what stands in for the truth. When the robot walked is still known.
+logs::Row WithoutTruth(logs::Row row, const logs::RowGroups& stand_ins) {
+  logs::ForEachGroup(row, [&]<class Group>(std::optional<Group>& group) {
+    const bool stands_in = stand_ins[static_cast<std::size_t>(Group::kGroup)];
+    if (stands_in && logs::IsTruth(Group::kGroup)) group.reset();
+  });
+  return row;
+}
+
 bool OnFallback(const logs::Row& row) {
   if (!row.supervision) return false;
   const auto& on = row.supervision->fallen_back;
@@ -24,22 +33,37 @@ bool OnFallback(const logs::Row& row) {
 MetricsAccumulator::MetricsAccumulator(double gravity_mps2, const Metrics& metrics)
     : gravity_mps2_(gravity_mps2) {
   for (const Metric& m : metrics) {
-    if (m.make != nullptr) own_.push_back({std::string(m.info.key), m.info.needs, m.make()});
+    if (m.make != nullptr)
+      own_.push_back({std::string(m.info.key), m.info.needs, m.info.takes_substitutes, m.make()});
   }
 }
 
-void MetricsAccumulator::AddRow(const logs::Row& row) {
-  const logs::RowGroups groups = logs::GroupsOf(row);
-  groups_ |= groups;
-  for (Own& own : own_) {
-    if ((own.needs & ~groups).none()) own.accumulator->AddRow(row);
+void MetricsAccumulator::AddRow(const logs::Row& row, const logs::RowGroups& stand_ins) {
+  groups_ |= logs::GroupsOf(row) & ~stand_ins;
+  AddOwn(row, true);
+  if (stand_ins.none()) {
+    AddOwn(row, false);
+    estimation_.AddRow(row);
+    model_.AddRow(row);
+  } else {
+    const logs::Row bare = WithoutTruth(row, stand_ins);
+    AddOwn(bare, false);
+    estimation_.AddRow(bare);
+    model_.AddRow(bare);
   }
-  estimation_.AddRow(row);
-  model_.AddRow(row);
   metrics_.duration_s = row.time_s;
   if (row.true_mass) metrics_.mass_kg = row.true_mass->mass_kg;
   if (row.solve_times) AddTimes(*row.solve_times);
   if (row.episode) AddEpisode(row);
+}
+
+/// Shows the row to the metrics that take stand-ins, or to the others.
+void MetricsAccumulator::AddOwn(const logs::Row& row, bool with_stand_ins) {
+  const logs::RowGroups groups = logs::GroupsOf(row);
+  for (Own& own : own_) {
+    if (own.takes_substitutes == with_stand_ins && (own.needs & ~groups).none())
+      own.accumulator->AddRow(row);
+  }
 }
 
 void MetricsAccumulator::AddEpisode(const logs::Row& row) {
@@ -51,7 +75,10 @@ void MetricsAccumulator::AddEpisode(const logs::Row& row) {
   const bool walking = episode.operating && !episode.fallen;
   if (!walking || episode.segment != segment_) EndStretch();
   if (!walking) return;
-  if (row.true_contacts) AddPeakForce(*row.true_contacts);
+  if (row.true_contacts) {
+    AddPeakForce(*row.true_contacts);
+    gait_.Add(row.time_s, row.true_contacts->contact);
+  }
   AddWalking(row);
 }
 
@@ -113,6 +140,7 @@ void MetricsAccumulator::StartWindow(const logs::Row& row) {
 void MetricsAccumulator::EndStretch() {
   if (!in_stretch_) return;
   in_stretch_ = false;
+  gait_.Break();
   if (last_place_) AddChord(path_.CloseChord(last_place_->p_W), last_place_->time_s);
 }
 
@@ -188,6 +216,7 @@ EpisodeMetrics MetricsAccumulator::Finish() {
   m.wbc = wbc_times_.Summarise();
   m.estimation = estimation_.Finish();
   m.model = model_.Finish();
+  m.gait = gait_.timing();
   for (const Own& own : own_) {
     if (const auto value = own.accumulator->Value()) m.measured[own.key] = *value;
   }

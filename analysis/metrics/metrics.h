@@ -21,7 +21,10 @@ class MetricsAccumulator {
  public:
   /// @param metrics  whose own accumulators take the rows, too.
   explicit MetricsAccumulator(double gravity_mps2, const Metrics& metrics = AllMetrics());
-  void AddRow(const logs::Row& row);
+  void AddRow(const logs::Row& row) { AddRow(row, {}); }
+  /// @param stand_ins  groups of the row that stand in for what a robot's log lacks: metrics that
+  /// do not take them are measured without.
+  void AddRow(const logs::Row& row, const logs::RowGroups& stand_ins);
   void AddFall(const FallEvent& fall) { metrics_.falls.push_back(fall); }
   [[nodiscard]] EpisodeMetrics Finish();
 
@@ -29,12 +32,14 @@ class MetricsAccumulator {
   struct Own {
     std::string key;
     logs::RowGroups needs;
+    bool takes_substitutes = false;
     std::unique_ptr<RowMetric> accumulator;
   };
   struct Place {
     double time_s = 0.0;
     Vec2 p_W = Vec2::Zero();
   };
+  void AddOwn(const logs::Row& row, bool with_stand_ins);
   void AddEpisode(const logs::Row& row);
   void AddTimes(const logs::SolveTimesRow& times);
   void AddPeakForce(const logs::TrueContactsRow& contacts);
@@ -72,6 +77,7 @@ class MetricsAccumulator {
   TimeHistogram mpc_times_, wbc_times_;
   EstimationAccumulator estimation_;
   ModelAccumulator model_;
+  GaitTimer gait_;
   std::optional<std::uint32_t> last_segment_;  // of any row
   std::optional<logs::LedgerRow> ledger_;      // of the last row
 };

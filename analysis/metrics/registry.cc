@@ -14,7 +14,8 @@ namespace {
 
 /// Of an episode, by either source of the metric.
 std::optional<Measured> Measure(const Metric& metric, const EpisodeMetrics& m) {
-  if (MissingGroups(metric.info.needs, m.groups).any()) return std::nullopt;
+  if (MissingGroups(metric.info, m.groups, m.substitutes).any()) return std::nullopt;
+  if (m.withheld.contains(metric.info.key)) return std::nullopt;
   std::optional<Measured> found;
   if (metric.find != nullptr) {
     found = metric.find(m);
@@ -55,9 +56,9 @@ std::optional<double> PoolMetric(const Metric& metric, const EpisodeMetrics& sum
 
 Metrics AllMetrics() {
   Metrics all;
-  for (const auto family :
-       {SafetyMetrics, TransportMetrics, TrackingMetrics, EstimationFamilyMetrics,
-        ContactFamilyMetrics, ModelFamilyMetrics, EnergyMetrics, TimingMetrics}) {
+  for (const auto family : {SafetyMetrics, TransportMetrics, TrackingMetrics,
+                            EstimationFamilyMetrics, ContactFamilyMetrics, ModelFamilyMetrics,
+                            EnergyMetrics, TimingMetrics, GaitMetrics, FieldMetrics}) {
     for (const Metric& metric : family()) all.push_back(metric);
   }
   all.push_back(FallbackShareMetric());
@@ -80,6 +81,16 @@ const Metric* FindMetric(const Metrics& metrics, std::string_view key) noexcept 
 logs::RowGroups MissingGroups(const logs::RowGroups& needs,
                               const std::optional<logs::RowGroups>& had) {
   return had ? needs & ~*had : logs::RowGroups();
+}
+
+logs::RowGroups MissingGroups(const MetricInfo& metric, const std::optional<logs::RowGroups>& had,
+                              const Substitutes& substitutes) {
+  logs::RowGroups missing = MissingGroups(metric.needs, had);
+  for (const auto& [group, source] : substitutes) {
+    const bool counts = metric.takes_substitutes || group == logs::RowGroup::kEpisode;
+    if (counts) missing.reset(static_cast<std::size_t>(group));
+  }
+  return missing;
 }
 
 std::string DescribeMissing(const logs::RowGroups& missing) {

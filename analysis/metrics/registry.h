@@ -26,6 +26,12 @@ namespace scoria::analysis {
 [[nodiscard]] logs::RowGroups MissingGroups(const logs::RowGroups& needs,
                                             const std::optional<logs::RowGroups>& had);
 
+/// What rows lacked of what a metric needs. What stood in for a group counts for the metrics that
+/// take it, and for all that when the robot walked.
+[[nodiscard]] logs::RowGroups MissingGroups(const MetricInfo& metric,
+                                            const std::optional<logs::RowGroups>& had,
+                                            const Substitutes& substitutes);
+
 /// "the log has no truth, energy and ledger". @pre some group is missing.
 [[nodiscard]] std::string DescribeMissing(const logs::RowGroups& missing);
 

@@ -48,10 +48,13 @@ void AddData(const CoursePlot& plot, Figure& figure) {
   constexpr double kGap_s = 1.0;
   const std::size_t every = std::max<std::size_t>(1, plot.time_s.size() / kMostPoints);
   std::vector<std::vector<double>> rows;
+  std::size_t gap = 0;
   for (std::size_t i = 0; i < plot.time_s.size(); i += every) {
     std::vector<double> row = RowAt(plot, i);
-    if (!rows.empty() && plot.time_s[i] - rows.back()[0] > kGap_s)
-      rows.emplace_back(row.size(), kNan);
+    bool breaks = !rows.empty() && plot.time_s[i] - rows.back()[0] > kGap_s;
+    for (; gap < plot.gaps_s.size() && plot.time_s[i] >= plot.gaps_s[gap].second; ++gap)
+      breaks = true;
+    if (breaks) rows.emplace_back(row.size(), kNan);
     rows.push_back(std::move(row));
   }
   figure.Data("d", rows);

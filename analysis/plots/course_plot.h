@@ -48,9 +48,11 @@ struct CoursePlot {
   std::vector<CoursePanel> panels;
   std::vector<double> marks_s = {};                         // dashed lines
   std::vector<std::pair<double, double>> stretches_s = {};  // shaded
+  std::vector<std::pair<double, double>> gaps_s = {};       // by time: no line is drawn across
 };
 
-/// At most about 4000 instants are drawn; across a gap of more than a second there is no line.
+/// At most about 4000 instants are drawn; across a gap of more than a second, or one
+/// that is named, there is no line.
 /// Lines and bands without one value are left out.
 [[nodiscard]] Figure DrawCourse(const CoursePlot& plot);
 

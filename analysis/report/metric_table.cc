@@ -15,9 +15,18 @@ std::optional<std::string> WhyNotValid(const ReportInput& input, const logs::Row
   return DescribeMissing(missing);
 }
 
+std::optional<std::string> WhyNotValid(const ReportInput& input, std::string_view key) {
+  const Metric* metric = FindMetric(input.metrics, key);
+  if (metric == nullptr) return std::nullopt;
+  const logs::RowGroups missing = MissingGroups(metric->info, input.groups, input.substitutes);
+  if (missing.none()) return std::nullopt;
+  return DescribeMissing(missing);
+}
+
 Blocks NotValidNotes(const ReportInput& input, MetricFamily family) {
   Blocks notes;
-  for (const std::string& line : DescribeNotValid(MetricsOf(input.metrics, family), input.groups))
+  for (const std::string& line :
+       DescribeNotValid(MetricsOf(input.metrics, family), input.groups, input.substitutes))
     notes.push_back(Note{line + "."});
   return notes;
 }

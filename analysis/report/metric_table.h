@@ -32,6 +32,11 @@ template <class Line>
 [[nodiscard]] std::optional<std::string> WhyNotValid(const ReportInput& input,
                                                      const logs::RowGroups& needs);
 
+/// Likewise of a metric, which may take what stands in for the truth. Nothing where there is none
+/// of that key.
+[[nodiscard]] std::optional<std::string> WhyNotValid(const ReportInput& input,
+                                                     std::string_view key);
+
 /// The metrics of a family that the rows of no episode could give, each with the reason.
 [[nodiscard]] Blocks NotValidNotes(const ReportInput& input, MetricFamily family);
 

@@ -19,7 +19,10 @@ Document ComposeReport(const ReportInput& input) {
   Document document;
   document.title = input.results.name;
   document.head = BuildHead(input);
-  for (const Section& section : AllSections()) {
+  std::vector<Section> sections;
+  if (!input.results.logs.empty()) sections = FieldSections();
+  for (const Section& section : AllSections()) sections.push_back(section);
+  for (const Section& section : sections) {
     if (const auto reason = section.why_not(input)) {
       document.not_shown.push_back(fmt::format("{}, because {}.", section.title, *reason));
     } else {
@@ -31,8 +34,12 @@ Document ComposeReport(const ReportInput& input) {
 
 fs::path WriteReport(const fs::path& folder, const std::optional<ReportPicture>& picture,
                      const Metrics& metrics) {
-  const ReportInput input = MakeReportInput(folder, LoadResults(folder), picture, metrics);
-  const fs::path out = folder / "report", figures = out / "figures";
+  return WriteReport(MakeReportInput(folder, LoadResults(folder), picture, metrics),
+                     folder / "report");
+}
+
+fs::path WriteReport(const ReportInput& input, const fs::path& out) {
+  const fs::path figures = out / "figures";
   const core::FolderLock lock(out);
   core::CreateFolders(figures);
   const Document document = DrawFigures(ComposeReport(input), figures);

@@ -22,4 +22,7 @@ std::filesystem::path WriteReport(const std::filesystem::path& folder,
                                   const std::optional<ReportPicture>& picture = std::nullopt,
                                   const Metrics& metrics = AllMetrics());
 
+/// Likewise of what is at hand, into `out`.
+std::filesystem::path WriteReport(const ReportInput& input, const std::filesystem::path& out);
+
 }  // namespace scoria::analysis

@@ -24,6 +24,13 @@ std::optional<logs::RowGroups> GroupsOf(const CampaignResults& results) {
   return groups.any() ? std::optional(groups) : std::nullopt;
 }
 
+Substitutes SubstitutesOf(const CampaignResults& results) {
+  Substitutes all;
+  for (const EpisodeRecord& e : results.episodes)
+    all.insert(e.metrics.substitutes.begin(), e.metrics.substitutes.end());
+  return all;
+}
+
 }  // namespace
 
 ReportInput MakeReportInput(const std::filesystem::path& folder, CampaignResults results,
@@ -32,6 +39,7 @@ ReportInput MakeReportInput(const std::filesystem::path& folder, CampaignResults
   input.folder = folder;
   input.metrics = metrics;
   input.groups = GroupsOf(results);
+  input.substitutes = SubstitutesOf(results);
   input.cells = AllCells(results, metrics);
   for (const std::string& arm : results.arms)
     input.pooled.push_back(PoolCell(results, arm, {}, metrics));

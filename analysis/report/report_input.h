@@ -22,6 +22,7 @@ struct ReportInput {
   std::vector<ArmDifferences> differences;  // likewise, in the same order
   Metrics metrics;                          // the registry
   std::optional<logs::RowGroups> groups;    // that some episode's rows had; unknown: older results
+  Substitutes substitutes;                  // for groups that the logs of robots lack
   std::optional<ReportPicture> picture;
 
   /// Some episode has numbers.

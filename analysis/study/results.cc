@@ -20,8 +20,8 @@ using nlohmann::json;
 void FillMetrics(const json& j, EpisodeRecord& episode) {
   EpisodeOutcome outcome;
   j.at("falls").get_to(outcome.falls);
-  j.at("stuck").get_to(outcome.stuck);
-  j.at("real_time_factor").get_to(outcome.real_time_factor);
+  outcome.stuck = j.at("stuck").get<int>();
+  outcome.real_time_factor = j.at("real_time_factor").get<double>();
   j.at("walked_m").get_to(episode.walked_m);
   j.at("counters").get_to(episode.counters);
   episode.us_per_step = j.value("us_per_step", episode.us_per_step);  // not in older results

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/metrics/episode_metrics.h"
+#include "analysis/study/field_log.h"
 #include "terrains/generator.h"
 
 namespace scoria::analysis {
@@ -41,6 +42,7 @@ struct CampaignResults {
   std::vector<Axis> axes;
   std::vector<EpisodeRecord> episodes;
   bool single_run = false;
+  std::vector<FieldLog> logs;  // of robots, of which the episodes are parts; none of simulations
 };
 
 /// Errors: std::runtime_error that names the file and what is missing.

@@ -18,6 +18,7 @@ void AddSchema(CLI::App& app);
 void AddVerify(CLI::App& app, int& exit_code);
 void AddReplay(CLI::App& app, int& exit_code);
 void AddScenarioFrom(CLI::App& app);
+void AddAnalyze(CLI::App& app);
 void AddExport(CLI::App& app, int& exit_code);
 
 }  // namespace scoria::app

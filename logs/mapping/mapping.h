@@ -20,6 +20,7 @@ class Mapping {
 
   [[nodiscard]] const std::string& name() const noexcept { return file_.name; }
   [[nodiscard]] const MappingFile& file() const noexcept { return file_; }
+  [[nodiscard]] const core::ConfigNode& node() const noexcept { return node_; }  // as it was read
   [[nodiscard]] const std::vector<SignalSpec>& signals() const noexcept { return signals_; }
 
   /// A wrong key of this mapping, found when a log was held against it.

@@ -16,6 +16,9 @@ namespace scoria::analysis {
 [[nodiscard]] Metrics ModelFamilyMetrics();
 [[nodiscard]] Metrics EnergyMetrics();
 [[nodiscard]] Metrics TimingMetrics();
+[[nodiscard]] Metrics GaitMetrics();
+/// Of several families: what needs no truth.
+[[nodiscard]] Metrics FieldMetrics();
 
 [[nodiscard]] Metric FallbackShareMetric();
 

@@ -18,8 +18,8 @@ std::optional<Measured> FallsPerMetre(const EpisodeMetrics& m) {
 }
 
 std::optional<Measured> Stuck(const EpisodeMetrics& m) {
-  if (!m.outcome) return std::nullopt;
-  return Measured{static_cast<double>(m.outcome->stuck)};
+  if (!m.outcome || !m.outcome->stuck) return std::nullopt;
+  return Measured{static_cast<double>(*m.outcome->stuck)};
 }
 
 std::optional<Measured> PeakFootForce(const EpisodeMetrics& m) {
@@ -38,7 +38,8 @@ Metrics SafetyMetrics() {
             .needs = Groups({RowGroup::kTruth}),
             .better = Better::kLower,
             .pooling = Pooling::kSum,
-            .definition = "How many times the robot fell, by the true motion of its trunk."},
+            .definition = "How many times the robot fell, by the true motion of its trunk.",
+            .takes_substitutes = true},
            Falls},
           {{.key = "falls_per_m",
             .family = MetricFamily::kSafety,
@@ -50,7 +51,8 @@ Metrics SafetyMetrics() {
             .better = Better::kLower,
             .pooling = Pooling::kAccumulated,
             .pooled_over = "ratio of sums",
-            .definition = "Falls over distance."},
+            .definition = "Falls over distance.",
+            .takes_substitutes = true},
            FallsPerMetre},
           {{.key = "stuck",
             .family = MetricFamily::kSafety,

@@ -56,8 +56,8 @@ Metrics TimingMetrics() {
             .better = Better::kHigher,
             .definition = "Simulated time over the wall-clock time of controller and physics."},
            [](const E& m) -> std::optional<Measured> {
-             if (!m.outcome) return std::nullopt;
-             return Measured{m.outcome->real_time_factor};
+             if (!m.outcome || !m.outcome->real_time_factor) return std::nullopt;
+             return Measured{*m.outcome->real_time_factor};
            }}};
 }
 

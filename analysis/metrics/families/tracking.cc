@@ -35,7 +35,8 @@ MetricInfo ErrorInfo(std::string_view key, std::string_view symbol, std::string_
           .better = Better::kLower,
           .pooling = Pooling::kRms,
           .pooled_over = "steady time",
-          .definition = definition};
+          .definition = definition,
+          .takes_substitutes = true};
 }
 
 Metric VelocityError() {
@@ -80,7 +81,8 @@ MetricInfo SpeedInfo(std::string_view key, std::string_view title, std::string_v
           .digits = 3,
           .needs = Groups({RowGroup::kEpisode, RowGroup::kTruth, RowGroup::kCommand}),
           .pooled_over = "steady time",
-          .definition = definition};
+          .definition = definition,
+          .takes_substitutes = true};
 }
 
 Metric StandingDrift() {
@@ -94,7 +96,8 @@ Metric StandingDrift() {
            .needs = Groups({RowGroup::kEpisode, RowGroup::kTruth, RowGroup::kCommand}),
            .better = Better::kLower,
            .pooling = Pooling::kLargest,
-           .definition = "Largest horizontal distance from where steady standing began."},
+           .definition = "Largest horizontal distance from where steady standing began.",
+           .takes_substitutes = true},
           Error<&TrackingErrors::drift_m>};
 }
 

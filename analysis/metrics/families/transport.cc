@@ -26,7 +26,8 @@ MetricInfo CostInfo(std::string_view key, std::string_view symbol, std::string_v
           .better = Better::kLower,
           .pooling = Pooling::kAccumulated,
           .pooled_over = "ratio of sums",
-          .definition = definition};
+          .definition = definition,
+          .takes_substitutes = true};
 }
 
 }  // namespace
@@ -49,7 +50,8 @@ Metrics TransportMetrics() {
             .needs = Groups({RowGroup::kEpisode}),
             .pooling = Pooling::kSum,
             .definition = "Time in which the walking controller was in charge of a robot that had "
-                          "not fallen."},
+                          "not fallen.",
+            .takes_substitutes = true},
            [](const EpisodeMetrics& m) { return MeasuredIf(true, m.walking_s); }},
           {{.key = "distance_m",
             .family = MetricFamily::kTransport,
@@ -60,7 +62,8 @@ Metrics TransportMetrics() {
             .needs = Groups({RowGroup::kEpisode, RowGroup::kTruth}),
             .pooling = Pooling::kSum,
             .definition = "Sum of half-second chords of the true trunk's path, placements "
-                          "excluded."},
+                          "excluded.",
+            .takes_substitutes = true},
            [](const EpisodeMetrics& m) { return MeasuredIf(true, m.distance_m); }},
           {CostInfo("cot_mech_abs", "C_abs", "CoT mech_abs",
                     "Cost of transport: Σ|τω| of the motors over ∫ m g ds."),

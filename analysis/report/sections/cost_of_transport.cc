@@ -91,10 +91,7 @@ std::optional<std::string> WhyNot(const ReportInput& input) {
       if (w.v_mps >= kSlowest_mps) return std::nullopt;
     }
   }
-  using logs::RowGroup;
-  if (auto reason =
-          WhyNotValid(input, Groups({RowGroup::kTruth, RowGroup::kTrueMass, RowGroup::kEnergy})))
-    return reason;
+  if (auto reason = WhyNotValid(input, "cot_mech_abs")) return reason;
   return "no episode walked steadily for five seconds";
 }
 

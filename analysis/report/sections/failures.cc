@@ -13,7 +13,8 @@ std::optional<std::string> WhyNot(const ReportInput& /*input*/) { return std::nu
 std::optional<long> CountStuck(const CampaignResults& results) {
   std::optional<long> stuck;
   for (const EpisodeRecord& e : results.episodes) {
-    if (e.metrics.outcome) stuck = stuck.value_or(0) + e.metrics.outcome->stuck;
+    const auto& outcome = e.metrics.outcome;
+    if (outcome && outcome->stuck) stuck = stuck.value_or(0) + *outcome->stuck;
   }
   return stuck;
 }

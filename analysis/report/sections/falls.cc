@@ -142,7 +142,7 @@ std::optional<std::string> WhyNot(const ReportInput& input) {
   const auto& axes = input.results.axes;
   if (std::any_of(axes.begin(), axes.end(), IsDrawn)) return std::nullopt;
   if (!GroupFalls(input.results).empty()) return std::nullopt;
-  if (auto reason = WhyNotValid(input, Groups({logs::RowGroup::kTruth}))) return reason;
+  if (auto reason = WhyNotValid(input, "falls")) return reason;
   const auto& episodes = input.results.episodes;
   const bool fell = std::any_of(episodes.begin(), episodes.end(), [](const EpisodeRecord& e) {
     return e.metrics.outcome && e.metrics.outcome->falls > 0;

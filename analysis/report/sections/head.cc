@@ -22,9 +22,13 @@ std::string Summary(const ReportInput& input) {
     sweep += fmt::format("{}{} ({})", sweep.empty() ? " over " : " and ", axis.label,
                          fmt::join(axis.values, ", "));
   }
-  const std::string walked = fmt::format("{}{}: {} episodes", fmt::join(results.arms, ", "), sweep,
-                                         results.episodes.size());
-  const auto reason = WhyNotValid(input, Groups({logs::RowGroup::kTruth}));
+  const std::string walked =
+      results.logs.empty()
+          ? fmt::format("{}{}: {} episodes", fmt::join(results.arms, ", "), sweep,
+                        results.episodes.size())
+          : fmt::format("{}{}: {} {} of robots", fmt::join(results.arms, ", "), sweep,
+                        results.logs.size(), results.logs.size() == 1 ? "log" : "logs");
+  const auto reason = WhyNotValid(input, "distance_m");
   if (reason) return fmt::format("{}. Way and falls are not valid here: {}.", walked, *reason);
   double metres = 0.0;
   int falls = 0;

@@ -3,6 +3,8 @@
 
 namespace scoria::analysis {
 
+std::vector<Section> FieldSections() { return {QualitySection(), FieldLogsSection()}; }
+
 std::vector<Section> AllSections() {
   return {PointVerdictsSection(),   FailuresSection(),        FallsSection(),
           CostOfTransportSection(), TrackingSection(),        NumbersSection(),

@@ -7,6 +7,8 @@
 
 namespace scoria::analysis {
 
+[[nodiscard]] Section QualitySection();
+[[nodiscard]] Section FieldLogsSection();
 [[nodiscard]] Section PointVerdictsSection();
 [[nodiscard]] Section FailuresSection();
 [[nodiscard]] Section FallsSection();
@@ -26,7 +28,10 @@ namespace scoria::analysis {
 [[nodiscard]] Section VideosSection();
 [[nodiscard]] Section DataSection();
 
-/// All of them, in the order of the page.
+/// Those that only reports of robots' logs have; they come first.
+[[nodiscard]] std::vector<Section> FieldSections();
+
+/// All others, in the order of the page.
 [[nodiscard]] std::vector<Section> AllSections();
 
 }  // namespace scoria::analysis

@@ -23,9 +23,7 @@ bool HasAny(const ReportInput& input, std::string_view key) {
 std::optional<std::string> WhyNot(const ReportInput& input) {
   const auto drawn = [&](std::string_view key) { return HasAny(input, key); };
   if (std::any_of(kDrawn.begin(), kDrawn.end(), drawn)) return std::nullopt;
-  if (const Metric* velocity = FindMetric(input.metrics, kDrawn.front())) {
-    if (auto reason = WhyNotValid(input, velocity->info.needs)) return reason;
-  }
+  if (auto reason = WhyNotValid(input, kDrawn.front())) return reason;
   return "no episode walked steadily";
 }
 

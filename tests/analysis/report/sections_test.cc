@@ -20,7 +20,7 @@ EpisodeRecord Walked(const std::string& arm, std::uint64_t seed) {
   e.ground = std::to_string(seed);
   e.end = "completed";
   e.has_metrics = true;
-  e.metrics.outcome.emplace();
+  e.metrics.outcome = {.falls = 0, .stuck = 0, .real_time_factor = 1.0};
   e.metrics.distance_m = 50.0;
   return e;
 }

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "analysis/signals/falls.h"
+#include "core/robot/description.h"
+#include "logs/row.h"
+
+namespace scoria::analysis {
+
+/// What a robot's own log tells of a fall: the tilt by its attitude, the trunk's height over the
+/// lowest foot by its joints, and the load that the trunk bears: what the accelerometer says that
+/// all of the ground carries, less what the feet do, a mean over kLoad_s. Where the feet's forces
+/// are those of the torques alone, statics without the legs' weight, their usual error (the mean
+/// over the last kUsual_s) is taken off.
+class FallClues {
+ public:
+  static constexpr double kLoad_s = 0.1, kUsual_s = 10.0;
+
+  /// @param robot    borrowed; null: only the tilt is told.
+  /// @param mass_kg  of the whole robot.
+  FallClues(const core::RobotDescription* robot, double mass_kg, double gravity_mps2) noexcept
+      : robot_(robot), mass_kg_(mass_kg), gravity_mps2_(gravity_mps2) {}
+
+  /// @param dt_s  since the row before.
+  [[nodiscard]] FallSample Update(const logs::Row& row, double dt_s);
+
+  /// The robot was placed, or rows are missing.
+  void Reset() noexcept { load_N_.reset(); }
+
+ private:
+  [[nodiscard]] std::optional<double> FeetForce(const logs::Row& row, const Mat3& R_WB) const;
+  [[nodiscard]] std::optional<double> WithoutUsual(double load_N, double dt_s);
+
+  const core::RobotDescription* robot_;
+  double mass_kg_, gravity_mps2_;
+  std::optional<double> load_N_;
+  double usual_N_ = 0.0, seen_s_ = 0.0;  // of loads by torques
+};
+
+}  // namespace scoria::analysis

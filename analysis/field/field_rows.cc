@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "analysis/field/field_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "analysis/field/leg_odometry.h"
+#include "core/math/so3.h"
+
+namespace scoria::analysis {
+namespace {
+
+Vec3 ToVec3(const logs::Array3& v) { return {v[0], v[1], v[2]}; }
+logs::Array3 ToArray(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+double NominalHeight(const core::RobotDescription* robot) {
+  return robot != nullptr ? robot->config.nominal_height_m : 0.0;
+}
+
+}  // namespace
+
+FieldRows::FieldRows(FieldSetup setup, OnRow on_row)
+    : setup_(std::move(setup)),
+      on_row_(std::move(on_row)),
+      clues_(setup_.mass_kg ? setup_.robot : nullptr, setup_.mass_kg.value_or(0.0),
+             setup_.gravity_mps2),
+      detector_(setup_.falls, NominalHeight(setup_.robot)) {
+  if (setup_.robot != nullptr) model_.emplace(*setup_.robot, setup_.gravity_mps2);
+}
+
+void FieldRows::Add(const logs::Row& row) {
+  if (waiting_) Complete(std::move(*waiting_), &row);
+  waiting_ = row;
+}
+
+void FieldRows::Finish() {
+  if (waiting_) Complete(std::move(*waiting_), nullptr);
+  waiting_.reset();
+}
+
+/// The robot was set down elsewhere, or rows are missing.
+bool FieldRows::IsNewPlace(const logs::Row& row) const {
+  if (!last_.time_s) return false;
+  const double dt_s = row.time_s - *last_.time_s;
+  if (dt_s > setup_.gap_s || dt_s < 0.0) return true;
+  constexpr double kJump_m = 0.05, kJump_mps = 5.0, kJump_rad = 0.3, kJump_radps = 40.0;
+  if (last_.p_WB && row.estimate) {
+    const Vec3 step = ToVec3(row.estimate->p_WB_m) - *last_.p_WB;
+    if ((step - dt_s * *last_.v_WB).norm() > kJump_m + kJump_mps * dt_s) return true;
+  }
+  if (!last_.q_rad || !row.measured || !row.measured->q_rad) return false;
+  int jumps = 0;
+  for (std::size_t k = 0; k < last_.q_rad->size(); ++k) {
+    const double step_rad = std::abs((*row.measured->q_rad)[k] - (*last_.q_rad)[k]);
+    if (step_rad > kJump_rad + kJump_radps * dt_s) ++jumps;
+  }
+  return jumps > 1;  // a single encoder may fail
+}
+
+void FieldRows::Complete(logs::Row row, const logs::Row* after) {
+  const logs::RowGroups had = logs::GroupsOf(row);
+  const bool placed = IsNewPlace(row);
+  if (placed) {
+    ++segment_;
+    fallen_ = false;
+    detector_.Reset();
+    clues_.Reset();
+    before_.reset();
+    v_legs_W_.setZero();
+  }
+  const double dt_s = placed || !last_.time_s ? 0.0 : row.time_s - *last_.time_s;
+  const std::optional<logs::Array12> qd_radps = SpeedsAt(row, after);
+  const bool operating = !setup_.has_plan || row.plan.has_value();
+  if (!row.episode) {
+    FindFall(row, dt_s, operating);
+  } else {
+    if (row.episode->fallen && !fallen_) Count(row, "the log's own account");
+    fallen_ = row.episode->fallen;
+  }
+  last_ = {row.time_s, std::nullopt, std::nullopt, std::nullopt};
+  if (row.estimate) {
+    last_.p_WB = ToVec3(row.estimate->p_WB_m);
+    last_.v_WB = ToVec3(row.estimate->v_WB_mps);
+  }
+  if (row.measured) last_.q_rad = row.measured->q_rad;
+  before_.reset();
+  if (last_.q_rad) before_ = {row.time_s, *last_.q_rad};
+  FillContacts(row);
+  FillMotion(row, qd_radps, dt_s);
+  FillTrueContacts(row);
+  FillMass(row);
+  FillEnergy(row, qd_radps, dt_s);
+  if (!row.episode) row.episode = {rows_, operating, fallen_ || stopped_, segment_};
+  ++rows_;
+  on_row_(row, logs::GroupsOf(row) & ~had);
+}
+
+std::optional<FallVerdict> FieldRows::LabelNear(double time_s) const {
+  std::optional<FallVerdict> nearest;
+  double distance_s = kLabel_s;
+  for (const FallLabel& label : setup_.labels) {
+    const double away_s = std::abs(label.time_s - time_s);
+    if (away_s > distance_s) continue;
+    distance_s = away_s;
+    nearest = label.verdict;
+  }
+  return nearest;
+}
+
+void FieldRows::Count(const logs::Row& row, std::string cause) {
+  FallEvent event{row.time_s, std::move(cause), std::nullopt};
+  if (row.estimate) event.p_WB = ToVec3(row.estimate->p_WB_m).head<2>();
+  falls_.push_back(std::move(event));
+  fallen_ = true;
+}
+
+/// A fall that somebody saw and the log does not show, or that an operator prevented.
+void FieldRows::ApplyLabels(const logs::Row& row) {
+  while (next_label_ < setup_.labels.size() && setup_.labels[next_label_].time_s <= row.time_s) {
+    const FallLabel& label = setup_.labels[next_label_++];
+    const bool counted =
+        !falls_.empty() && std::abs(falls_.back().time_s - label.time_s) <= kLabel_s;
+    if (label.verdict == FallVerdict::kFall && !counted) Count(row, "label");
+    if (label.verdict == FallVerdict::kOperatorStop) stopped_ = true;
+  }
+}
+
+void FieldRows::FindFall(const logs::Row& row, double dt_s, bool operating) {
+  ApplyLabels(row);
+  const FallSample sample = clues_.Update(row, dt_s);
+  const FallState before = detector_.state();
+  constexpr double kNotOverdue_s = -1.0;  // a log does not say when standing up should have ended
+  const FallCause cause =
+      operating ? detector_.Update(sample) : detector_.UpdateStandUp(sample, kNotOverdue_s);
+  if (before == FallState::kFallen && detector_.state() == FallState::kUpright) {
+    ++segment_;  // set on its feet by hand
+    fallen_ = stopped_ = false;
+  }
+  if (cause == FallCause::kNone) return;
+  const bool counted = !falls_.empty() && row.time_s - falls_.back().time_s <= kLabel_s &&
+                       falls_.back().cause == "label";
+  const std::optional<FallVerdict> label = LabelNear(row.time_s);
+  if (counted || (label && *label != FallVerdict::kFall)) return;
+  Count(row, std::string(core::EnumName(cause)));
+}
+
+std::optional<logs::Array12> FieldRows::SpeedsAt(const logs::Row& row,
+                                                 const logs::Row* after) const {
+  if (!row.measured) return std::nullopt;
+  if (setup_.joint_speed == JointSpeed::kMeasured) return row.measured->qd_radps;
+  if (!row.measured->q_rad || !before_ || after == nullptr || !after->measured ||
+      !after->measured->q_rad || after->time_s - row.time_s > setup_.gap_s ||
+      after->time_s <= before_->first)
+    return std::nullopt;
+  return CalcJointDerivative(before_->second, *after->measured->q_rad,
+                             after->time_s - before_->first);
+}
+
+void FieldRows::FillMotion(logs::Row& row, const std::optional<logs::Array12>& qd_radps,
+                           double dt_s) {
+  if (row.truth || setup_.odometry == Odometry::kTruth) return;
+  logs::TruthRow truth;
+  if (setup_.odometry == Odometry::kEstimate && row.estimate) {
+    truth.p_WB_m = row.estimate->p_WB_m;
+    truth.v_WB_mps = row.estimate->v_WB_mps;
+    truth.rpy_rad = row.estimate->rpy_rad;
+  } else if (setup_.odometry == Odometry::kLegs && setup_.robot != nullptr && qd_radps) {
+    const std::optional<Mat3> R_WB = AttitudeOf(row, setup_.robot);
+    const std::optional<Vec3> v_WB = CalcLegVelocity(*setup_.robot, row, *qd_radps);
+    if (!R_WB) return;
+    if (v_WB) v_legs_W_ = *v_WB;  // in flight it moves on as it was
+    p_legs_W_ += dt_s * v_legs_W_;
+    truth.p_WB_m = ToArray(p_legs_W_);
+    truth.v_WB_mps = ToArray(v_legs_W_);
+    truth.rpy_rad = ToArray(core::RpyFromRotation(*R_WB));
+  } else {
+    return;
+  }
+  const Mat3 R_WB = core::RotationFromRpy(ToVec3(truth.rpy_rad));
+  if (const std::optional<Vec3> w_WB_B = RateOf(row, setup_.robot)) {
+    truth.w_WB_radps = ToArray(R_WB * *w_WB_B);
+  } else if (last_R_WB_ && dt_s > 0.0) {
+    truth.w_WB_radps = ToArray(core::LogSo3(R_WB * last_R_WB_->transpose()) / dt_s);
+  }
+  last_R_WB_ = R_WB;
+  row.truth = truth;
+}
+
+void FieldRows::FillContacts(logs::Row& row) {
+  if (setup_.has_contacts || row.contacts || !row.measured || !row.measured->tau_Nm) return;
+  const LegArray<bool> loaded = stance_.Update(Unflatten(*row.measured->tau_Nm));
+  logs::ContactsRow& contacts = row.contacts.emplace();
+  for (const Leg leg : kLegs) contacts.contact[static_cast<std::size_t>(leg)] = loaded[leg];
+}
+
+void FieldRows::FillTrueContacts(logs::Row& row) const {
+  if (row.true_contacts || !row.contacts) return;
+  row.true_contacts.emplace().contact = row.contacts->contact;
+  if (setup_.robot == nullptr || !row.truth || !row.measured || !row.measured->q_rad) return;
+  const LegArray<Vec3> q = Unflatten(*row.measured->q_rad);
+  const Mat3 R_WB = core::RotationFromRpy(ToVec3(row.truth->rpy_rad));
+  LegArray<Vec3> p_WF = ZeroPerLeg();
+  for (const Leg leg : kLegs) {
+    p_WF[leg] = ToVec3(row.truth->p_WB_m) +
+                R_WB * core::CalcLegKinematics(setup_.robot->legs[leg], q[leg]).p_BF;
+  }
+  row.true_contacts->p_WF_m = Flatten(p_WF);
+}
+
+void FieldRows::FillMass(logs::Row& row) {
+  if (row.true_mass || !setup_.mass_kg) return;
+  row.true_mass.emplace().mass_kg = *setup_.mass_kg;
+  if (!model_ || !row.truth || !row.measured || !row.measured->q_rad) return;
+  RobotState state;
+  state.p_WB = ToVec3(row.truth->p_WB_m);
+  state.R_WB = core::RotationFromRpy(ToVec3(row.truth->rpy_rad));
+  state.q = Unflatten(*row.measured->q_rad);
+  model_->Calc(state, body_);
+  row.true_mass->p_BC_m = ToArray(state.R_WB.transpose() * (body_.p_WC - state.p_WB));
+  row.true_mass->p_WC_z_m = body_.p_WC.z();
+}
+
+/// Powers of this instant over the time since the row before.
+void FieldRows::FillEnergy(logs::Row& row, const std::optional<logs::Array12>& qd_radps,
+                           double dt_s) {
+  if (row.energy || !row.measured) return;
+  const logs::MeasuredRow& measured = *row.measured;
+  const bool has_joints = measured.tau_Nm && qd_radps;
+  const bool has_battery = measured.battery_V && measured.battery_A;
+  cover_.all_s += dt_s;
+  if (has_joints) {
+    AddJointEnergy(*measured.tau_Nm, *qd_radps, dt_s);
+    cover_.joints_s += dt_s;
+  }
+  if (has_battery) {
+    energy_.battery_J += dt_s * *measured.battery_V * *measured.battery_A;
+    cover_.battery_s += dt_s;
+  }
+  row.energy = energy_;
+}
+
+void FieldRows::AddJointEnergy(const logs::Array12& tau_Nm, const logs::Array12& qd_radps,
+                               double dt_s) {
+  const core::MotorParams motors =
+      setup_.robot != nullptr ? setup_.robot->config.motors : core::MotorParams{};
+  double electrical_W = motors.idle_W;
+  for (std::size_t k = 0; k < qd_radps.size(); ++k) {
+    const double power_W = tau_Nm[k] * qd_radps[k];
+    const double loss = motors.copper_loss_W_per_Nm2[static_cast<Eigen::Index>(k % kJointsPerLeg)];
+    energy_.mech_abs_J += dt_s * std::abs(power_W);
+    energy_.mech_pos_J += dt_s * std::max(power_W, 0.0);
+    electrical_W += std::max(0.0, power_W + loss * tau_Nm[k] * tau_Nm[k]);
+  }
+  energy_.electrical_J += dt_s * electrical_W;
+}
+
+}  // namespace scoria::analysis

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "analysis/field/fall_clues.h"
+#include "analysis/field/joint_speed.h"
+#include "analysis/signals/falls.h"
+#include "core/robot/description.h"
+#include "core/robot/whole_body.h"
+#include "logs/quality/stance_by_torque.h"
+#include "logs/row.h"
+
+namespace scoria::analysis {
+
+/// Whose account of the trunk's way is taken: motion capture or GPS, the robot's own estimate, or
+/// its legs (feet in contact do not slip) with the attitude of the IMU.
+enum class Odometry { kNone, kTruth, kEstimate, kLegs };
+
+/// What somebody who was there says of a moment.
+enum class FallVerdict { kFall, kNotAFall, kOperatorStop };
+constexpr std::array<std::pair<FallVerdict, std::string_view>, 3> EnumNames(FallVerdict) {
+  return {{{FallVerdict::kFall, "fall"},
+           {FallVerdict::kNotAFall, "not a fall"},
+           {FallVerdict::kOperatorStop, "operator stop"}}};
+}
+struct FallLabel {
+  double time_s = 0.0;  // of the rows
+  FallVerdict verdict = FallVerdict::kFall;
+};
+
+/// The time of which powers were known.
+struct EnergyCover {
+  double all_s = 0.0, joints_s = 0.0, battery_s = 0.0;
+};
+
+/// What is known of a log before its rows are completed.
+struct FieldSetup {
+  const core::RobotDescription* robot = nullptr;  // borrowed; null: not known
+  std::optional<double> mass_kg = std::nullopt;   // of the whole robot, payload included
+  double gravity_mps2 = 9.81;
+  Odometry odometry = Odometry::kNone;
+  JointSpeed joint_speed = JointSpeed::kMeasured;
+  bool has_contacts = false;
+  bool has_plan = false;  // without its plan the walking controller is not in charge
+  double gap_s = 0.1;     // rows further apart are not one walk
+  FallParams falls = {};
+  std::vector<FallLabel> labels = {};  // by time
+};
+
+/// Completes the rows of a robot's log by what its own sensors tell, so that the same metrics are
+/// computed from it as from a simulated walk: when it walked (episode), motion of its trunk
+/// (truth), contacts (by the torques of the legs, where the log has none; true_contacts, with the
+/// feet's places by kinematics), mass (true_mass), and energy (energy; electrical by the robot's
+/// motor parameters, battery by voltage and current). What a log has of these is left as it is. A
+/// row is handed on when the next one has come.
+class FieldRows {
+ public:
+  /// @param stand_ins  the groups that were not in the log.
+  using OnRow = std::function<void(const logs::Row& row, const logs::RowGroups& stand_ins)>;
+
+  FieldRows(FieldSetup setup, OnRow on_row);
+  void Add(const logs::Row& row);
+  void Finish();
+
+  /// Falls so far, labels applied.
+  [[nodiscard]] const std::vector<FallEvent>& falls() const noexcept { return falls_; }
+
+  /// Of the energies, which are sums over the time that is covered.
+  [[nodiscard]] const EnergyCover& cover() const noexcept { return cover_; }
+
+  /// A label holds for what happens within so much of its time.
+  static constexpr double kLabel_s = 2.0;
+
+ private:
+  struct Placed {
+    std::optional<double> time_s;
+    std::optional<Vec3> p_WB, v_WB;
+    std::optional<logs::Array12> q_rad;
+  };
+  void Complete(logs::Row row, const logs::Row* after);
+  [[nodiscard]] bool IsNewPlace(const logs::Row& row) const;
+  void FindFall(const logs::Row& row, double dt_s, bool operating);
+  void ApplyLabels(const logs::Row& row);
+  [[nodiscard]] std::optional<FallVerdict> LabelNear(double time_s) const;
+  void Count(const logs::Row& row, std::string cause);
+  [[nodiscard]] std::optional<logs::Array12> SpeedsAt(const logs::Row& row,
+                                                      const logs::Row* after) const;
+  void FillMotion(logs::Row& row, const std::optional<logs::Array12>& qd_radps, double dt_s);
+  void FillContacts(logs::Row& row);
+  void FillTrueContacts(logs::Row& row) const;
+  void FillMass(logs::Row& row);
+  void FillEnergy(logs::Row& row, const std::optional<logs::Array12>& qd_radps, double dt_s);
+  void AddJointEnergy(const logs::Array12& tau_Nm, const logs::Array12& qd_radps, double dt_s);
+
+  FieldSetup setup_;
+  OnRow on_row_;
+  std::optional<core::WholeBodyModel> model_;
+  core::WholeBody body_;
+  FallClues clues_;
+  FallDetector detector_;
+  logs::StanceByTorque stance_;
+  std::optional<logs::Row> waiting_;
+  Placed last_;                                             // of the row before the one that waits
+  std::optional<std::pair<double, logs::Array12>> before_;  // angles of that row
+  std::uint32_t segment_ = 0;
+  std::int64_t rows_ = 0;
+  bool fallen_ = false, stopped_ = false;
+  std::size_t next_label_ = 0;
+  std::vector<FallEvent> falls_;
+  std::optional<Mat3> last_R_WB_;
+  Vec3 p_legs_W_ = Vec3::Zero(), v_legs_W_ = Vec3::Zero();
+  logs::EnergyRow energy_;
+  EnergyCover cover_;
+};
+
+}  // namespace scoria::analysis

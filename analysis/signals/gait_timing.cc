@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "analysis/signals/gait_timing.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace scoria::analysis {
+namespace {
+
+std::optional<double> Ratio(double sum, double of) noexcept {
+  return of > 0.0 ? std::optional(sum / of) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<double> LegTiming::MeanStride() const noexcept {
+  return Ratio(stride_s, static_cast<double>(strides));
+}
+std::optional<double> LegTiming::MeanStance() const noexcept {
+  return Ratio(stance_s, static_cast<double>(strides));
+}
+std::optional<double> LegTiming::Duty() const noexcept { return Ratio(stance_s, stride_s); }
+
+std::optional<double> LegTiming::Phase() const noexcept {
+  if (phases == 0) return std::nullopt;
+  const double turns = std::arg(phase) / (2.0 * std::numbers::pi);
+  return turns < 0.0 ? turns + 1.0 : turns;
+}
+
+LegTiming& LegTiming::operator+=(const LegTiming& other) noexcept {
+  strides += other.strides;
+  stride_s += other.stride_s;
+  stance_s += other.stance_s;
+  phase += other.phase;
+  phases += other.phases;
+  return *this;
+}
+
+GaitTiming& GaitTiming::operator+=(const GaitTiming& other) noexcept {
+  for (const Leg leg : kLegs) legs[leg] += other.legs[leg];
+  return *this;
+}
+
+void GaitTimer::Break() noexcept {
+  legs_ = {};
+  started_ = false;
+  reference_s_.reset();
+  reference_stride_s_.reset();
+}
+
+void GaitTimer::Add(double time_s, const logs::PerLeg<bool>& contact) noexcept {
+  for (const Leg leg : kLegs) {
+    LegState& state = legs_[leg];
+    const bool now = contact[static_cast<std::size_t>(leg)];
+    if (!started_) state.on = now;
+    if (started_ && now != state.raw) state.raw_s = 0.5 * (last_s_ + time_s);
+    state.raw = now;
+    if (state.raw_s && time_s - *state.raw_s >= kBounce_s) Settle(leg, state);
+  }
+  started_ = true;
+  last_s_ = time_s;
+}
+
+/// The last change of the contact has lasted.
+void GaitTimer::Settle(Leg leg, LegState& state) noexcept {
+  if (state.on == state.raw) return;
+  state.on = state.raw;
+  if (state.raw) {
+    Touchdown(leg, *state.raw_s);
+  } else {
+    state.up_s = state.raw_s;
+  }
+}
+
+void GaitTimer::Touchdown(Leg leg, double time_s) noexcept {
+  LegState& state = legs_[leg];
+  LegTiming& timing = timing_.legs[leg];
+  if (state.down_s && state.up_s && time_s - *state.down_s <= kLongest_s) {
+    ++timing.strides;
+    timing.stride_s += time_s - *state.down_s;
+    timing.stance_s += *state.up_s - *state.down_s;
+    if (leg == Leg::kFL) reference_stride_s_ = time_s - *state.down_s;
+  }
+  if (leg == Leg::kFL) reference_s_ = time_s;
+  if (reference_s_ && reference_stride_s_) {
+    const double share = (time_s - *reference_s_) / *reference_stride_s_;
+    timing.phase += std::polar(1.0, 2.0 * std::numbers::pi * share);
+    ++timing.phases;
+  }
+  state.down_s = time_s;
+  state.up_s.reset();
+}
+
+}  // namespace scoria::analysis

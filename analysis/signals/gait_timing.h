@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <complex>
+#include <cstdint>
+#include <optional>
+
+#include "core/robot/legs.h"
+#include "logs/row.h"
+
+namespace scoria::analysis {
+
+/// Strides of one leg, added up: from touchdown to touchdown.
+struct LegTiming {
+  std::uint64_t strides = 0;
+  double stride_s = 0.0, stance_s = 0.0;  // sums
+  /// Sum of exp(2πi φ), φ the touchdown's place in the front left leg's stride, over `phases`.
+  std::complex<double> phase;
+  std::uint64_t phases = 0;
+  [[nodiscard]] std::optional<double> MeanStride() const noexcept;  // s
+  [[nodiscard]] std::optional<double> MeanStance() const noexcept;  // s
+  [[nodiscard]] std::optional<double> Duty() const noexcept;        // share of stance
+  [[nodiscard]] std::optional<double> Phase() const noexcept;       // in [0, 1)
+  LegTiming& operator+=(const LegTiming& other) noexcept;
+  bool operator==(const LegTiming&) const = default;
+};
+
+/// Times of the gait of an episode, or of several added up.
+struct GaitTiming {
+  LegArray<LegTiming> legs;
+  GaitTiming& operator+=(const GaitTiming& other) noexcept;
+  bool operator==(const GaitTiming&) const = default;
+};
+
+/// Measures strides from the contacts of the feet, in samples of any rate. A foot that is off the
+/// ground, or on it, for less than kBounce_s has not moved from stance to swing, or back; longer
+/// strides than kLongest_s are standing.
+class GaitTimer {
+ public:
+  static constexpr double kBounce_s = 0.04, kLongest_s = 3.0;
+
+  void Add(double time_s, const logs::PerLeg<bool>& contact) noexcept;
+  /// Samples before and after belong to different stretches of walking.
+  void Break() noexcept;
+  [[nodiscard]] const GaitTiming& timing() const noexcept { return timing_; }
+
+ private:
+  struct LegState {
+    bool on = false, raw = false;        // without bounces; the last sample
+    std::optional<double> raw_s;         // since when that is; none: since the stretch began
+    std::optional<double> down_s, up_s;  // of the stride that is under way
+  };
+  void Settle(Leg leg, LegState& state) noexcept;
+  void Touchdown(Leg leg, double time_s) noexcept;
+
+  GaitTiming timing_;
+  LegArray<LegState> legs_;
+  bool started_ = false;
+  double last_s_ = 0.0;
+  std::optional<double> reference_s_, reference_stride_s_;  // of the front left leg
+};
+
+}  // namespace scoria::analysis

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "analysis/field/field_rows.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/robots.h"
+
+namespace scoria::analysis {
+namespace {
+
+constexpr double kStep_s = 0.01;
+
+/// A robot that stands, with an estimate that moves along x and joints that do not.
+logs::Row StandingRow(double time_s, double x_m, double roll_rad = 0.0) {
+  logs::Row row;
+  row.time_s = time_s;
+  row.estimate.emplace().p_WB_m = {x_m, 0.0, 0.3};
+  row.estimate->v_WB_mps = {0.3, 0.0, 0.0};
+  row.estimate->rpy_rad = {roll_rad, 0.0, 0.0};
+  row.measured.emplace();
+  logs::Array12 q{}, tau{};
+  for (std::size_t k = 0; k < q.size(); k += 3) {
+    q[k + 1] = 0.8;
+    q[k + 2] = -1.6;
+    tau[k + 2] = 10.0;
+  }
+  row.measured->q_rad = q;
+  row.measured->qd_radps.emplace();
+  row.measured->tau_Nm = tau;
+  row.contacts.emplace().contact = {true, true, true, true};
+  row.contacts->f_F_W_N.emplace();
+  for (const std::size_t z : {2U, 5U, 8U, 11U})
+    (*row.contacts->f_F_W_N)[z] = test::Go2().total_mass_kg() * 9.81 / 4.0;
+  return row;
+}
+
+/// Rolls over at 2 s and lies for a second.
+double RollAt(double time_s) { return time_s < 2.0 || time_s > 3.0 ? 0.0 : 1.5; }
+
+struct Completed {
+  std::vector<logs::Row> rows;
+  std::vector<FallEvent> falls;
+};
+
+FieldSetup MakeSetup(const core::RobotDescription& robot) {
+  FieldSetup setup;
+  setup.robot = &robot;
+  setup.mass_kg = robot.total_mass_kg();
+  setup.odometry = Odometry::kEstimate;
+  setup.has_contacts = true;
+  return setup;
+}
+
+Completed Complete(const FieldSetup& setup, const std::vector<logs::Row>& rows) {
+  Completed completed;
+  FieldRows field(
+      setup, [&](const logs::Row& row, const logs::RowGroups&) { completed.rows.push_back(row); });
+  for (const logs::Row& row : rows) field.Add(row);
+  field.Finish();
+  completed.falls = field.falls();
+  return completed;
+}
+
+std::vector<logs::Row> Tumble() {
+  std::vector<logs::Row> rows;
+  for (int k = 0; k < 600; ++k)
+    rows.push_back(StandingRow(kStep_s * k, 0.003 * k, RollAt(kStep_s * k)));
+  return rows;
+}
+
+TEST(FieldRows, TiltIsAFallAndTheRobotWalksAgainASecondAfterItIsUpright) {
+  const core::RobotDescription robot = test::Go2();
+  const Completed c = Complete(MakeSetup(robot), Tumble());
+  ASSERT_EQ(c.falls.size(), 1U);
+  EXPECT_NEAR(c.falls[0].time_s, 2.0, kStep_s);
+  ASSERT_EQ(c.rows.size(), 600U);
+  const auto state_at = [&](double time_s) {
+    return *c.rows[static_cast<std::size_t>(std::lround(time_s / kStep_s))].episode;
+  };
+  EXPECT_FALSE(state_at(1.9).fallen);
+  EXPECT_TRUE(state_at(2.5).fallen);
+  EXPECT_TRUE(state_at(3.9).fallen);
+  EXPECT_FALSE(state_at(4.2).fallen);
+  EXPECT_NE(state_at(4.2).segment, state_at(1.9).segment);
+}
+
+TEST(FieldRows, JumpOfTheEstimateIsAPlacementAndNoFall) {
+  const core::RobotDescription robot = test::Go2();
+  std::vector<logs::Row> rows;
+  for (int k = 0; k < 400; ++k)
+    rows.push_back(StandingRow(kStep_s * k, 0.003 * k + (k < 200 ? 0.0 : 1.5)));
+  const Completed c = Complete(MakeSetup(robot), rows);
+  EXPECT_TRUE(c.falls.empty());
+  EXPECT_EQ(c.rows[199].episode->segment + 1, c.rows[200].episode->segment);
+}
+
+TEST(FieldRows, LabelsCorrectFalls) {
+  const core::RobotDescription robot = test::Go2();
+  FieldSetup setup = MakeSetup(robot);
+  setup.labels = {{2.3, FallVerdict::kNotAFall}, {5.5, FallVerdict::kFall}};
+  const Completed c = Complete(setup, Tumble());
+  ASSERT_EQ(c.falls.size(), 1U);
+  EXPECT_NEAR(c.falls[0].time_s, 5.5, kStep_s);
+  EXPECT_EQ(c.falls[0].cause, "label");
+  setup.labels = {{1.5, FallVerdict::kOperatorStop}};
+  const Completed stopped = Complete(setup, Tumble());
+  EXPECT_TRUE(stopped.falls.empty());
+  EXPECT_TRUE(stopped.rows[170].episode->fallen) << "it is not walking on its own";
+}
+
+TEST(FieldRows, GapEndsAStretch) {
+  const core::RobotDescription robot = test::Go2();
+  std::vector<logs::Row> rows;
+  for (int k = 0; k < 300; ++k)
+    rows.push_back(StandingRow(kStep_s * k + (k < 150 ? 0.0 : 0.6), 0.003 * k));
+  const Completed c = Complete(MakeSetup(robot), rows);
+  EXPECT_NE(c.rows[149].episode->segment, c.rows[150].episode->segment);
+  EXPECT_EQ(c.rows[149].energy, c.rows[150].energy) << "nothing is known of the gap";
+}
+
+TEST(FieldRows, WithoutThePlanTheControllerIsNotInCharge) {
+  const core::RobotDescription robot = test::Go2();
+  FieldSetup setup = MakeSetup(robot);
+  setup.has_plan = true;
+  std::vector<logs::Row> rows = {StandingRow(0.0, 0.0), StandingRow(kStep_s, 0.0)};
+  rows[1].plan.emplace();
+  const Completed c = Complete(setup, rows);
+  EXPECT_FALSE(c.rows[0].episode->operating);
+  EXPECT_TRUE(c.rows[1].episode->operating);
+}
+
+TEST(FieldRows, WhatTheLogHasIsLeftAsItIs) {
+  const core::RobotDescription robot = test::Go2();
+  logs::Row row = StandingRow(0.0, 0.0);
+  row.truth.emplace().p_WB_m = {5.0, 0.0, 0.0};
+  row.true_mass.emplace().mass_kg = 17.0;
+  row.episode = logs::EpisodeRow{};
+  const Completed c = Complete(MakeSetup(robot), {row});
+  EXPECT_EQ(c.rows[0].truth, row.truth);
+  EXPECT_EQ(c.rows[0].true_mass, row.true_mass);
+  EXPECT_EQ(c.rows[0].episode, row.episode);
+}
+
+}  // namespace
+}  // namespace scoria::analysis
