@@ -44,7 +44,7 @@ FallSample FallClues::Update(const logs::Row& row, double dt_s) {
   FallSample sample{.dt_s = dt_s};
   const std::optional<Mat3> R_WB = AttitudeOf(row, robot_);
   if (!R_WB) return sample;
-  sample.tilt_rad = std::acos(std::clamp((*R_WB)(2, 2), -1.0, 1.0));
+  sample.tilt_rad = LeastTilt(row.time_s, std::acos(std::clamp((*R_WB)(2, 2), -1.0, 1.0)));
   if (robot_ == nullptr || !row.measured || !row.measured->q_rad) return sample;
   sample.height_m = HeightOverFeet(*robot_, *row.measured->q_rad, *R_WB);
   const std::optional<double> feet_N = FeetForce(row, *R_WB);
@@ -57,8 +57,20 @@ FallSample FallClues::Update(const logs::Row& row, double dt_s) {
   const double share = std::min(1.0, dt_s / kLoad_s), now_N = all_N - *feet_N;
   load_N_ = load_N_ ? *load_N_ + share * (now_N - *load_N_) : now_N;
   const bool by_torques = !row.contacts || !row.contacts->f_F_W_N;
-  sample.trunk_force_N = by_torques ? WithoutUsual(*load_N_, dt_s) : load_N_;
+  const std::optional<double> load_N = by_torques ? WithoutUsual(*load_N_, dt_s) : load_N_;
+  const bool low = *sample.height_m < kLow * robot_->config.nominal_height_m;
+  if (low) sample.trunk_force_N = load_N;
   return sample;
+}
+
+double FallClues::LeastTilt(double time_s, double tilt_rad) {
+  const bool known = !tilts_.empty() && time_s - tilts_.front().first >= kTilt_s;
+  tilts_.emplace_back(time_s, tilt_rad);
+  while (tilts_.size() > 2 && time_s - tilts_[1].first >= kTilt_s) tilts_.pop_front();
+  if (!known) return 0.0;  // of a first moment nothing is told
+  double least_rad = tilt_rad;
+  for (const auto& [at_s, rad] : tilts_) least_rad = std::min(least_rad, rad);
+  return least_rad;
 }
 
 /// Nothing until the usual load is known.

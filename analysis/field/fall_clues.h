@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <deque>
 #include <optional>
+#include <utility>
 
 #include "analysis/signals/falls.h"
 #include "core/robot/description.h"
@@ -14,8 +16,13 @@ namespace scoria::analysis {
 /// all of the ground carries, less what the feet do, a mean over kLoad_s. Where the feet's forces
 /// are those of the torques alone, statics without the legs' weight, their usual error (the mean
 /// over the last kUsual_s) is taken off.
+///
+/// Two things look like a fall and are none: an attitude that is wrong for a moment, and knees or
+/// shanks that touch the ground in place of the feet. So the tilt is the least of the last kTilt_s,
+/// and a load is of the trunk only where that is lower than kLow of its nominal height.
 class FallClues {
  public:
+  static constexpr double kTilt_s = 0.03, kLow = 0.6;
   static constexpr double kLoad_s = 0.1, kUsual_s = 10.0;
 
   /// @param robot    borrowed; null: only the tilt is told.
@@ -27,14 +34,19 @@ class FallClues {
   [[nodiscard]] FallSample Update(const logs::Row& row, double dt_s);
 
   /// The robot was placed, or rows are missing.
-  void Reset() noexcept { load_N_.reset(); }
+  void Reset() noexcept {
+    load_N_.reset();
+    tilts_.clear();
+  }
 
  private:
+  [[nodiscard]] double LeastTilt(double time_s, double tilt_rad);
   [[nodiscard]] std::optional<double> FeetForce(const logs::Row& row, const Mat3& R_WB) const;
   [[nodiscard]] std::optional<double> WithoutUsual(double load_N, double dt_s);
 
   const core::RobotDescription* robot_;
   double mass_kg_, gravity_mps2_;
+  std::deque<std::pair<double, double>> tilts_;  // time, tilt, of the last kTilt_s
   std::optional<double> load_N_;
   double usual_N_ = 0.0, seen_s_ = 0.0;  // of loads by torques
 };

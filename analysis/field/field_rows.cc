@@ -58,13 +58,21 @@ bool FieldRows::IsNewPlace(const logs::Row& row) const {
   return jumps > 1;  // a single encoder may fail
 }
 
+bool FieldRows::IsUpright(const logs::Row& row) const {
+  constexpr double kUpright = 0.87;  // cos 30 degrees
+  const std::optional<Mat3> R_WB = AttitudeOf(row, setup_.robot);
+  return !R_WB || (*R_WB)(2, 2) > kUpright;
+}
+
 void FieldRows::Complete(logs::Row row, const logs::Row* after) {
   const logs::RowGroups had = logs::GroupsOf(row);
   const bool placed = IsNewPlace(row);
   if (placed) {
     ++segment_;
-    fallen_ = false;
-    detector_.Reset();
+    if (!fallen_ || IsUpright(row)) {  // else its estimate is lost while it tumbles
+      fallen_ = false;
+      detector_.Reset();
+    }
     clues_.Reset();
     before_.reset();
     v_legs_W_.setZero();
@@ -138,8 +146,10 @@ void FieldRows::FindFall(const logs::Row& row, double dt_s, bool operating) {
     fallen_ = stopped_ = false;
   }
   if (cause == FallCause::kNone) return;
-  const bool counted = !falls_.empty() && row.time_s - falls_.back().time_s <= kLabel_s &&
-                       falls_.back().cause == "label";
+  const double since_s = falls_.empty() ? kLabel_s + 1.0 : row.time_s - falls_.back().time_s;
+  const bool counted =
+      since_s <= kOneFall_s || (since_s <= kLabel_s && falls_.back().cause == "label");
+  if (counted) fallen_ = true;
   const std::optional<FallVerdict> label = LabelNear(row.time_s);
   if (counted || (label && *label != FallVerdict::kFall)) return;
   Count(row, std::string(core::EnumName(cause)));
@@ -197,6 +207,13 @@ void FieldRows::FillContacts(logs::Row& row) {
 void FieldRows::FillTrueContacts(logs::Row& row) const {
   if (row.true_contacts || !row.contacts) return;
   row.true_contacts.emplace().contact = row.contacts->contact;
+  if (row.contacts->f_F_W_N && setup_.mass_kg) {
+    // As the simulator says of true contacts, a little more for the noise of an estimate.
+    constexpr double kContact_N = 7.0, kOfMass_kg = 15.0;
+    const double least_N = kContact_N * *setup_.mass_kg / kOfMass_kg;
+    for (std::size_t leg = 0; leg < kLegs.size(); ++leg)
+      row.true_contacts->contact[leg] = (*row.contacts->f_F_W_N)[3 * leg + 2] > least_N;
+  }
   if (setup_.robot == nullptr || !row.truth || !row.measured || !row.measured->q_rad) return;
   const LegArray<Vec3> q = Unflatten(*row.measured->q_rad);
   const Mat3 R_WB = core::RotationFromRpy(ToVec3(row.truth->rpy_rad));

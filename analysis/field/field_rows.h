@@ -74,6 +74,9 @@ class FieldRows {
   /// Of the energies, which are sums over the time that is covered.
   [[nodiscard]] const EnergyCover& cover() const noexcept { return cover_; }
 
+  /// Falls within so much of the one before are the same: nobody sets a robot on its feet so fast.
+  static constexpr double kOneFall_s = 1.0;
+
   /// A label holds for what happens within so much of its time.
   static constexpr double kLabel_s = 2.0;
 
@@ -94,6 +97,7 @@ class FieldRows {
   void FillMotion(logs::Row& row, const std::optional<logs::Array12>& qd_radps, double dt_s);
   void FillContacts(logs::Row& row);
   void FillTrueContacts(logs::Row& row) const;
+  [[nodiscard]] bool IsUpright(const logs::Row& row) const;
   void FillMass(logs::Row& row);
   void FillEnergy(logs::Row& row, const std::optional<logs::Array12>& qd_radps, double dt_s);
   void AddJointEnergy(const logs::Array12& tau_Nm, const logs::Array12& qd_radps, double dt_s);

@@ -57,8 +57,10 @@ std::string SpeedText(const RowsSurvey& survey, JointSpeed speed) {
 analysis::Substitutes Describe(const analysis::FieldSetup& setup, const RowsSurvey& survey,
                                const logs::RowGroups& stand_ins, const std::string& mass) {
   const bool by_torque = Has(stand_ins, RowGroup::kContacts);
-  const std::string contacts =
-      by_torque ? "contacts by the torques of the legs" : "contacts as the log has them";
+  const bool by_force = survey.has_foot_forces && setup.mass_kg;
+  const std::string contacts = by_torque  ? "contacts by the torques of the legs"
+                               : by_force ? "contacts by the forces of the feet as the log has them"
+                                          : "contacts as the log has them";
   analysis::Substitutes all;
   all[RowGroup::kEpisode] = fmt::format(
       "walking is {}the robot has not fallen; falls by tilt, height over the feet, and "

@@ -24,6 +24,7 @@ class RowSurveyor {
     survey_.last_s = row.time_s;
     survey_.groups |= logs::GroupsOf(row);
     if (row.truth) ++survey_.with_truth;
+    survey_.has_foot_forces |= row.contacts && row.contacts->f_F_W_N;
     delays_.Add(row);
     if (!row.measured) return;
     survey_.has_torque |= row.measured->tau_Nm.has_value();

@@ -74,7 +74,7 @@ TEST(FieldRows, TiltIsAFallAndTheRobotWalksAgainASecondAfterItIsUpright) {
   const core::RobotDescription robot = test::Go2();
   const Completed c = Complete(MakeSetup(robot), Tumble());
   ASSERT_EQ(c.falls.size(), 1U);
-  EXPECT_NEAR(c.falls[0].time_s, 2.0, kStep_s);
+  EXPECT_NEAR(c.falls[0].time_s, 2.0 + FallClues::kTilt_s, kStep_s);
   ASSERT_EQ(c.rows.size(), 600U);
   const auto state_at = [&](double time_s) {
     return *c.rows[static_cast<std::size_t>(std::lround(time_s / kStep_s))].episode;
@@ -84,6 +84,51 @@ TEST(FieldRows, TiltIsAFallAndTheRobotWalksAgainASecondAfterItIsUpright) {
   EXPECT_TRUE(state_at(3.9).fallen);
   EXPECT_FALSE(state_at(4.2).fallen);
   EXPECT_NE(state_at(4.2).segment, state_at(1.9).segment);
+}
+
+TEST(FieldRows, WrongAttitudeOfAMomentIsNoFall) {
+  const core::RobotDescription robot = test::Go2();
+  std::vector<logs::Row> rows;
+  for (int k = 0; k < 300; ++k)
+    rows.push_back(StandingRow(kStep_s * k, 0.003 * k, k < 2 || k == 150 ? 3.1 : 0.0));
+  EXPECT_TRUE(Complete(MakeSetup(robot), rows).falls.empty());
+}
+
+TEST(FieldRows, EstimateThatIsLostWhileTheRobotLiesIsOneFall) {
+  const core::RobotDescription robot = test::Go2();
+  std::vector<logs::Row> rows = Tumble();
+  for (std::size_t k = 220; k < 300; k += 20) rows[k].estimate->p_WB_m[1] = 3.0;
+  EXPECT_EQ(Complete(MakeSetup(robot), rows).falls.size(), 1U);
+}
+
+/// The feet carry a third of the weight from 2 s on, over legs with that knee.
+std::vector<FallEvent> FallsOfUnloadedFeet(double knee_rad) {
+  const core::RobotDescription robot = test::Go2();
+  std::vector<logs::Row> rows;
+  for (int k = 0; k < 400; ++k) {
+    logs::Row row = StandingRow(kStep_s * k, 0.003 * k);
+    for (std::size_t j = 0; k >= 200 && j < 12; j += 3) {
+      (*row.measured->q_rad)[j + 1] = -0.5 * knee_rad;
+      (*row.measured->q_rad)[j + 2] = knee_rad;
+    }
+    for (const std::size_t z : {2U, 5U, 8U, 11U}) {
+      if (k >= 200) (*row.contacts->f_F_W_N)[z] /= 3.0;
+    }
+    rows.push_back(row);
+  }
+  FieldSetup setup = MakeSetup(robot);
+  setup.falls.trunk_force_N = 0.5 * robot.total_mass_kg() * 9.81;
+  setup.falls.trunk_force_s = 0.2;
+  return Complete(setup, rows).falls;
+}
+
+TEST(FieldRows, LoadThatTheFeetDoNotCarryIsAFallOfALowTrunk) {
+  constexpr double kFolded_rad = -2.3, kStanding_rad = -1.6;  // 0.17 m and 0.32 m high
+  const std::vector<FallEvent> low = FallsOfUnloadedFeet(kFolded_rad);
+  ASSERT_EQ(low.size(), 1U);
+  EXPECT_EQ(low[0].cause, "trunk_contact");
+  EXPECT_NEAR(low[0].time_s, 2.35, 0.15) << "0.1 s of smoothing, 0.2 s of load";
+  EXPECT_TRUE(FallsOfUnloadedFeet(kStanding_rad).empty()) << "knees may be on the ground";
 }
 
 TEST(FieldRows, JumpOfTheEstimateIsAPlacementAndNoFall) {
