@@ -123,7 +123,7 @@ std::vector<FallEvent> FallsOfUnloadedFeet(double knee_rad) {
 }
 
 TEST(FieldRows, LoadThatTheFeetDoNotCarryIsAFallOfALowTrunk) {
-  constexpr double kFolded_rad = -2.3, kStanding_rad = -1.6;  // 0.17 m and 0.32 m high
+  constexpr double kFolded_rad = -2.5, kStanding_rad = -1.6;  // 0.16 m and 0.32 m high
   const std::vector<FallEvent> low = FallsOfUnloadedFeet(kFolded_rad);
   ASSERT_EQ(low.size(), 1U);
   EXPECT_EQ(low[0].cause, "trunk_contact");
