@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -19,7 +20,7 @@ struct ReadingText {
   const char* found;
   const char* repair;
 };
-constexpr std::array<ReadingText, AttitudeCheck::kNumReadings> kTexts = {{
+constexpr std::array<ReadingText, AttitudeCheck::kNumAttitudes> kTexts = {{
     {FindingKind::kNotJudged, "", ""},
     {FindingKind::kQuaternionOrder, "w, x, y, z was read as x, y, z, w", "attitude: {order: wxyz}"},
     {FindingKind::kQuaternionOrder, "x, y, z, w was read as w, x, y, z", "attitude: {order: xyzw}"},
@@ -32,16 +33,55 @@ constexpr std::array<ReadingText, AttitudeCheck::kNumReadings> kTexts = {{
      "attitude: pitch and yaw with the other sign"},
     {FindingKind::kAttitudeSign, "roll has the other sign", "attitude: roll with the other sign"},
     {FindingKind::kAttitudeSign, "pitch has the other sign", "attitude: pitch with the other sign"},
-    {FindingKind::kAttitudeSign,
-     "the axes of gyroscope and accelerometer are turned about x by half a turn against it: z down",
-     "imu.rate, imu.acceleration: axes [x, -y, -z]"},
-    {FindingKind::kAttitudeSign,
-     "the axes of gyroscope and accelerometer are turned about y by half a turn against it: z down",
-     "imu.rate, imu.acceleration: axes [-x, y, -z]"},
 }};
 
 constexpr std::array kSignals = {SignalId::kImuAttitude, SignalId::kEstimateAttitude,
                                  SignalId::kTruthAttitude};
+
+/// The ways to turn axes by quarters, but for leaving them as they are: row i has the axis that is
+/// our i.
+const std::vector<Mat3>& TurnedAxes() {
+  static const std::vector<Mat3> kAll = [] {
+    std::vector<Mat3> all;
+    std::array<int, 3> from = {0, 1, 2};
+    do {
+      for (unsigned signs = 0; signs < 8; ++signs) {
+        Mat3 turn = Mat3::Zero();
+        for (int i = 0; i < 3; ++i)
+          turn(i, from[static_cast<std::size_t>(i)]) = (signs >> i & 1U) != 0 ? -1.0 : 1.0;
+        if (turn.determinant() > 0.0 && turn != Mat3::Identity()) all.push_back(turn);
+      }
+    } while (std::next_permutation(from.begin(), from.end()));
+    return all;
+  }();
+  return kAll;
+}
+
+/// "[y, x, -z]", as mappings have it.
+std::string DescribeAxes(const Mat3& turn) {
+  std::string text;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      if (turn(i, j) != 0.0)
+        text += fmt::format("{}{}{}", i == 0 ? "[" : ", ", turn(i, j) < 0.0 ? "-" : "", "xyz"[j]);
+    }
+  }
+  return text + "]";
+}
+
+struct Words {
+  FindingKind kind;
+  std::string found, repair;
+};
+
+Words Describe(std::size_t reading) {
+  if (reading < kTexts.size())
+    return {kTexts[reading].kind, kTexts[reading].found, kTexts[reading].repair};
+  const std::string axes = DescribeAxes(TurnedAxes()[reading - kTexts.size()]);
+  return {FindingKind::kAttitudeSign,
+          fmt::format("x, y, z of the attitude are {} of gyroscope and accelerometer", axes),
+          fmt::format("imu.rate, imu.acceleration: axes {}", axes)};
+}
 
 /// The attitude that was meant, if that was done to it.
 Mat3 Undo(Reading reading, const Vec3& rpy) {
@@ -67,12 +107,36 @@ Mat3 Undo(Reading reading, const Vec3& rpy) {
       return core::RotationFromRpy({-rpy.x(), rpy.y(), rpy.z()});
     case Reading::kPitchSign:
       return core::RotationFromRpy({rpy.x(), -rpy.y(), rpy.z()});
-    case Reading::kImuTurnedAboutX:
-      return core::RotationFromRpy(rpy) * Vec3(1.0, -1.0, -1.0).asDiagonal();
-    case Reading::kImuTurnedAboutY:
-      return core::RotationFromRpy(rpy) * Vec3(-1.0, 1.0, -1.0).asDiagonal();
   }
   return core::RotationFromRpy(rpy);
+}
+
+/// How the trunk turned from one attitude to another, as rotation vectors, and the latter.
+struct Turn {
+  Vec3 by_B = Vec3::Zero(), by_W = Vec3::Zero();
+  Mat3 R_end = Mat3::Identity();
+};
+
+Turn CalcTurn(const Mat3& R_begin, const Mat3& R_end) {
+  return {core::LogSo3(R_begin.transpose() * R_end), core::LogSo3(R_end * R_begin.transpose()),
+          R_end};
+}
+
+/// By every reading; those of other axes follow from the attitudes as they are.
+std::array<Turn, AttitudeCheck::kNumReadings> CalcTurns(const Vec3& rpy_begin, const Vec3& rpy_end,
+                                                        const Mat3& R_SB) {
+  std::array<Turn, AttitudeCheck::kNumReadings> turns;
+  for (std::size_t r = 0; r < AttitudeCheck::kNumAttitudes; ++r) {
+    const auto reading = static_cast<Reading>(r);
+    turns[r] = CalcTurn(Undo(reading, rpy_begin) * R_SB, Undo(reading, rpy_end) * R_SB);
+  }
+  const Mat3 R_BS = R_SB.transpose();
+  for (std::size_t k = 0; k < TurnedAxes().size(); ++k) {
+    const Mat3 turn = R_BS * TurnedAxes()[k] * R_SB;
+    turns[AttitudeCheck::kNumAttitudes + k] = {turn.transpose() * turns[0].by_B, turns[0].by_W,
+                                               turns[0].R_end * turn};
+  }
+  return turns;
 }
 
 double RateCost(const Vec3& by_attitude, const Vec3& rate) {
@@ -119,28 +183,26 @@ void AttitudeCheck::AddSource(std::size_t source) {
   const bool is_imu = source == static_cast<std::size_t>(MotionSource::kImu);
   Mat3 R_SB = Mat3::Identity();
   if (is_imu && subject_.robot != nullptr) R_SB = subject_.robot->R_BS.transpose();
-  const auto attitude = [&](std::size_t reading, const Tick& tick) {
-    return Mat3(Undo(static_cast<Reading>(reading), *tick.rpy_rad[source]) * R_SB);
-  };
+  const auto turns = CalcTurns(*begin.rpy_rad[source], *end.rpy_rad[source], R_SB);
   const bool by_truth = !mid.w_WB_B && mid.w_true && mid.R_WB[source];
   std::array<double, 3> as_is{};
   for (std::size_t r = 0; r < kNumReadings; ++r) {
-    const Mat3 R0 = attitude(r, begin), R1 = attitude(r, end);
+    const Turn& turn = turns[r];
     Evidence& evidence = evidence_[source][r];
     if (mid.w_WB_B) {
-      const double cost = RateCost(core::LogSo3(R0.transpose() * R1) / kSpan_s, *mid.w_WB_B);
+      const double cost = RateCost(turn.by_B / kSpan_s, *mid.w_WB_B);
       if (r == 0) as_is[0] = cost;
       evidence.rate.Add(as_is[0] - cost);
     } else if (by_truth) {
-      const double cost = RateCost(core::LogSo3(R1 * R0.transpose()) / kSpan_s, *mid.w_true);
+      const double cost = RateCost(turn.by_W / kSpan_s, *mid.w_true);
       const Vec3 w_B = mid.R_WB[source]->transpose() * *mid.w_true;
-      const double turned = RateCost(core::LogSo3(R0.transpose() * R1) / kSpan_s, w_B);
+      const double turned = RateCost(turn.by_B / kSpan_s, w_B);
       if (r == 0) as_is[0] = cost, as_is[1] = turned;
       evidence.rate.Add(as_is[0] - cost);
       evidence.turned_rate.Add(as_is[1] - turned);
     }
     if (up_B_) {
-      const double cost = TiltCost(R1 * *up_B_);
+      const double cost = TiltCost(turn.R_end * *up_B_);
       if (r == 0) as_is[2] = cost;
       evidence.gravity.Add(as_is[2] - cost);
     }
@@ -159,7 +221,7 @@ std::vector<Finding> AttitudeCheck::JudgeSource(std::size_t source,
   const auto best =
       std::max_element(readings.begin(), readings.end(),
                        [](const Evidence& a, const Evidence& b) { return a.gain() < b.gain(); });
-  const auto& text = kTexts[static_cast<std::size_t>(best - readings.begin())];
+  const Words text = Describe(static_cast<std::size_t>(best - readings.begin()));
   const bool has_rate = best->rate.count() > 0;
   const BlockMean& rate = best->BestRate();
   // The accelerometer may be wrong itself; the rate has to agree where there is one.

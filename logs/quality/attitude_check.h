@@ -11,14 +11,15 @@
 namespace scoria::logs {
 
 /// Attitudes against the rate of the trunk and against what holds the robot up: the order of a
-/// quaternion's numbers, roll and pitch exchanged, signs, the way of turning.
+/// quaternion's numbers, roll and pitch exchanged, signs, the way of turning, the axes of the IMU.
 class AttitudeCheck : public QualityCheck {
  public:
   explicit AttitudeCheck(const LogSubject& subject) : subject_(subject) {}
   void AddTick(const Tick& tick) override;
   [[nodiscard]] std::vector<Finding> Conclude(const std::vector<Finding>& earlier) const override;
 
-  /// What may have been done to an attitude on its way into the log.
+  /// What may have been done to an attitude on its way into the log. After these come the axes that
+  /// gyroscope and accelerometer may have instead: the 23 ways to turn them by quarters.
   enum class Reading {
     kAsIs,
     kScalarFirstReadLast,
@@ -28,10 +29,8 @@ class AttitudeCheck : public QualityCheck {
     kPitchYawSigns,
     kRollSign,
     kPitchSign,
-    kImuTurnedAboutX,
-    kImuTurnedAboutY,
   };
-  static constexpr std::size_t kNumReadings = 10;
+  static constexpr std::size_t kNumAttitudes = 8, kNumReadings = kNumAttitudes + 23;
 
  private:
   struct Evidence {

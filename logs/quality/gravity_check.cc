@@ -31,12 +31,21 @@ void GravityCheck::AddTick(const Tick& tick) {
   }
 }
 
-Finding GravityCheck::SignFinding(bool attitude_is_reliable) const {
+Finding GravityCheck::SignFinding(bool attitude_is_reliable,
+                                  const std::vector<Finding>& earlier) const {
   Finding f = MakeFinding(Severity::kError, FindingKind::kGravitySign, SignalId::kImuAcceleration);
   f.size = a_B_.mean().z();
   f.evidence = fmt::format("its mean is {:+.2f} m/s2 on z, but by the {} up is {}z of the trunk",
                            a_B_.mean().z(), attitude_is_reliable ? "attitude" : "load of the legs",
                            a_B_.mean().z() < 0.0 ? "+" : "-");
+  const auto axes = std::find_if(earlier.begin(), earlier.end(), [](const Finding& e) {
+    return e.kind == FindingKind::kAttitudeSign &&
+           e.repair.find("imu.acceleration") != std::string::npos;
+  });
+  if (axes != earlier.end()) {  // the gyroscope tells axes that the accelerometer shares
+    f.repair = axes->repair;
+    return f;
+  }
   const auto rms = [&](unsigned signs) { return std::sqrt(signs_[signs].mean()); };
   constexpr unsigned kZ = 4, kAll = 7;
   if (signs_[kZ].count() > 0)
@@ -89,7 +98,7 @@ std::vector<Finding> GravityCheck::Conclude(const std::vector<Finding>& earlier)
   const Vec3 up = has_attitude ? up_B_.mean() : legs_B_.mean();
   // Sixty degrees: half way to where a sign can be wrong.
   if (a_B_.mean().normalized().dot(up.normalized()) < -0.5)
-    findings.push_back(SignFinding(has_attitude));
+    findings.push_back(SignFinding(has_attitude, earlier));
   return findings;
 }
 

@@ -27,7 +27,8 @@ class GravityCheck : public QualityCheck {
     void Add(const Vec3& v) { sum += v, ++count; }
     [[nodiscard]] Vec3 mean() const { return count > 0 ? Vec3(sum / double(count)) : sum; }
   };
-  [[nodiscard]] Finding SignFinding(bool attitude_is_reliable) const;
+  [[nodiscard]] Finding SignFinding(bool attitude_is_reliable,
+                                    const std::vector<Finding>& earlier) const;
 
   LogSubject subject_;
   Direction a_B_, a_W_, legs_B_, up_B_;  // acceleration; feet's force; up by the attitude

@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include "core/math/so3.h"
 #include "tests/logs/quality/quality_logs.h"
+#include "tests/support/robots.h"
 
 namespace scoria::logs {
 namespace {
@@ -155,6 +157,88 @@ TEST(LogJudge, EqualTimesAndTimesThatGoBackAreNamed) {
     goes_back =
         goes_back || f.kind == FindingKind::kTimeBackwards || f.kind == FindingKind::kClockStep;
   EXPECT_TRUE(goes_back);
+}
+
+/// A trunk that turns to and fro, 200 Hz: a gyroscope, and an estimate that is late.
+std::vector<Row> Swaying(double delay_s) {
+  const auto R_WB = [](double t) {
+    return core::RotationFromRpy(
+        {0.1 * std::sin(7.0 * t), 0.08 * std::sin(5.0 * t + 1.0), 0.5 * std::sin(1.3 * t)});
+  };
+  std::vector<Row> rows;
+  for (int k = 0; k < 1600; ++k) {
+    Row row;
+    row.time_s = k * 0.005;
+    constexpr double kStep_s = 1e-4;
+    const Vec3 w =
+        core::LogSo3(R_WB(row.time_s - kStep_s).transpose() * R_WB(row.time_s + kStep_s)) /
+        (2.0 * kStep_s);
+    const Vec3 rpy = core::RpyFromRotation(R_WB(row.time_s - delay_s));
+    row.measured.emplace().w_WS_S_radps = {w.x(), w.y(), w.z()};
+    row.estimate.emplace().rpy_rad = {rpy.x(), rpy.y(), rpy.z()};
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+TEST(LogJudge, AttitudeThatIsLateIsNamedWithItsDelay) {
+  const auto f = Find(test::Judge(Swaying(0.020), nullptr), FindingKind::kAttitudeDelay);
+  ASSERT_TRUE(f);
+  EXPECT_EQ(f->signal, "estimate.attitude");
+  EXPECT_EQ(f->severity, Severity::kError);
+  EXPECT_NEAR(f->size.value(), 0.020, 0.001);
+  const auto less = Find(test::Judge(Swaying(0.011), nullptr), FindingKind::kAttitudeDelay);
+  ASSERT_TRUE(less);
+  EXPECT_EQ(less->severity, Severity::kWarning);
+  const auto other = Find(test::Judge(Swaying(-0.020), nullptr), FindingKind::kImuDelay);
+  ASSERT_TRUE(other);
+  EXPECT_NEAR(other->size.value(), 0.020, 0.001);
+  for (const double delay_s : {0.0, 0.004, -0.004}) {
+    for (const Finding& f_of_none : test::Judge(Swaying(delay_s), nullptr))
+      EXPECT_EQ(f_of_none.severity, Severity::kNote) << DescribeFinding(f_of_none);
+  }
+}
+
+TEST(LogJudge, RateThatStaysAtItsExtremeIsSaturated) {
+  std::vector<Row> rows = Swaying(0.0);
+  EXPECT_FALSE(Find(test::Judge(rows, nullptr), FindingKind::kSaturation));
+  constexpr double kEnd_radps = 0.4;  // of the sensor's range
+  for (Row& row : rows) {
+    double& w_x = (*row.measured->w_WS_S_radps)[0];
+    w_x = std::min(w_x, kEnd_radps);
+  }
+  const auto f = Find(test::Judge(rows, nullptr), FindingKind::kSaturation);
+  ASSERT_TRUE(f);
+  EXPECT_EQ(f->severity, Severity::kWarning);
+  EXPECT_EQ(f->signal, "imu.rate");
+  EXPECT_EQ(f->size, kEnd_radps);
+  EXPECT_GE(f->count, 8u);  // it sways at 1.1 Hz for 8 s
+  EXPECT_TRUE(f->evidence.starts_with("x stays at its extreme 0.4 ")) << f->evidence;
+}
+
+TEST(LogJudge, JointBeyondItsLimitsIsNamedWithItsSize) {
+  const core::RobotDescription& robot = test::Go2();
+  const core::JointDescription& knee = robot.legs[Leg::kFR].joints[2];
+  const auto rows_with = [&](double beyond_rad, double share) {
+    std::vector<Row> rows = Circle();
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      Array12& q = rows[k].measured.emplace().q_rad.emplace();
+      for (std::size_t i = 0; i < q.size(); ++i)
+        q[i] = std::array{0.0, 0.8, -1.5}[i % 3] + 0.1 * std::sin(3.0 * rows[k].time_s);
+      if (static_cast<double>(k % 100) < 100.0 * share) q[5] = knee.upper_rad + beyond_rad;
+    }
+    return rows;
+  };
+  const auto f = Find(test::Judge(rows_with(0.3, 0.1), &robot), FindingKind::kJointLimits);
+  ASSERT_TRUE(f);
+  EXPECT_EQ(f->severity, Severity::kWarning);
+  EXPECT_EQ(f->leg, Leg::kFR);
+  EXPECT_EQ(f->joint, Joint::kKFE);
+  EXPECT_NEAR(f->size.value(), 0.3, 1e-9);
+  EXPECT_TRUE(f->evidence.starts_with("it is beyond its limits for 10 % of the time"))
+      << f->evidence;
+  EXPECT_FALSE(Find(test::Judge(rows_with(0.1, 0.1), &robot), FindingKind::kJointLimits));
+  EXPECT_FALSE(Find(test::Judge(rows_with(-0.1, 0.1), &robot), FindingKind::kJointLimits));
 }
 
 }  // namespace
