@@ -22,6 +22,7 @@ bool IsSame(const JointHypothesis& a, const JointHypothesis& b) {
 }  // namespace
 
 JointCheck::JointCheck(const LogSubject& subject) : subject_(subject) {
+  if (subject.robot != nullptr) leg_ticks_.emplace(*subject.robot, subject.gravity_mps2);
   for (LegEvidence& leg : legs_) leg.gain.resize(JointHypotheses().size());
 }
 
@@ -38,8 +39,9 @@ void JointCheck::AddTick(const Tick& tick) {
       if (beyond > kLimitSlack_rad) ++beyond_[i];
     }
   }
-  const std::optional<LegTick> legs = MakeLegTick(tick, stance_);
-  if (!legs || legs->num_loaded == 0) return;
+  const std::optional<LegTick> legs = leg_ticks_->Make(tick);
+  // A robot that stands or gets up is in few poses, however long it lasts.
+  if (!legs || legs->num_loaded == 0 || legs->num_loaded == kNumLegs) return;
   LegArray<FootMotion> feet;
   for (const Leg leg : kLegs)
     feet[leg] = CalcFootMotion(subject_.robot->legs[leg], legs->q[leg], legs->qd[leg],
@@ -141,6 +143,7 @@ std::vector<Finding> JointCheck::Conclude(const std::vector<Finding>& earlier) c
     return {};
   std::vector<Finding> findings;
   for (const Leg leg : kLegs) {
+    if (leg_ticks_->IsFarFromEquilibrium()) break;
     if (const auto f = JudgeLeg(leg)) findings.push_back(*f);
   }
   for (const Finding& limit : Limits()) {

@@ -33,7 +33,7 @@ class JointCheck : public QualityCheck {
   [[nodiscard]] std::vector<Finding> Limits() const;
 
   LogSubject subject_;
-  StanceByTorque stance_;
+  std::optional<LegTickMaker> leg_ticks_;  // none without a robot
   std::array<LegEvidence, kNumLegs> legs_;
   std::array<double, kNumJoints> furthest_rad_{};  // beyond the limits
   std::array<std::uint64_t, kNumJoints> beyond_{};

@@ -12,6 +12,7 @@
 #include "logs/quality/load_check.h"
 #include "logs/quality/rate_check.h"
 #include "logs/quality/sensor_check.h"
+#include "logs/quality/torque_scale_check.h"
 #include "logs/quality/velocity_check.h"
 
 namespace scoria::logs {
@@ -29,6 +30,7 @@ QualityChecks MakeChecks(const LogSubject& subject) {
   checks.push_back(std::make_unique<LegsCheck>(subject));
   checks.push_back(std::make_unique<FootOrderCheck>(subject));
   checks.push_back(std::make_unique<LoadCheck>(subject));
+  checks.push_back(std::make_unique<TorqueScaleCheck>(subject));
   return checks;
 }
 

@@ -10,7 +10,7 @@ namespace scoria::logs {
 namespace {
 
 /// All legs have the same faults here, so that the sizes can be narrower than for one leg.
-constexpr SpeedSize kSpeed = {.floor_mps = 0.05, .share = 0.1};
+constexpr CostSizes kSizes = {.floor_mps = 0.05, .share = 0.1, .has_heights = false};
 constexpr double kLeastGain = 0.02;
 
 /// Motion of the trunk by each leg's columns, taken for each leg.
@@ -28,7 +28,7 @@ double CostOf(const LegOrder& order, const core::RobotDescription& robot, const 
         others.Add(motions[other][order[other]], tick.up_B);
     }
     cost += CalcCost(robot.legs[kLegs[leg]], tick.q[kLegs[order[leg]]], motions[leg][order[leg]],
-                     tick, others, kSpeed);
+                     tick, others, kSizes);
   }
   return cost / tick.num_loaded;
 }
@@ -60,7 +60,7 @@ std::string DescribeOrder(const LegOrder& order) {
 
 void LegOrderCheck::AddTick(const Tick& tick) {
   if (subject_.robot == nullptr) return;
-  const std::optional<LegTick> legs = MakeLegTick(tick, stance_);
+  const std::optional<LegTick> legs = leg_ticks_->Make(tick);
   if (!legs || legs->num_loaded < (legs->v_WB_B ? 1 : 2)) return;
   Motions motions;
   for (std::size_t leg = 0; leg < motions.size(); ++leg) {
@@ -79,6 +79,14 @@ void LegOrderCheck::AddTick(const Tick& tick) {
 }
 
 std::vector<Finding> LegOrderCheck::Conclude(const std::vector<Finding>& earlier) const {
+  if (leg_ticks_ && leg_ticks_->IsFarFromEquilibrium()) {
+    Finding f = MakeFinding(Severity::kNote, FindingKind::kNotJudged, SignalId::kJointQ);
+    f.spoils.reset();
+    f.evidence =
+        "legs and their joints are not judged: the trunk is far from equilibrium for much of the "
+        "time, as in a gait with flight";
+    return {f};
+  }
   if (cost_.count() < 6 * BlockMean::kBlock) return {};
   if (HasError(earlier,
                {FindingKind::kDegrees, FindingKind::kQuaternionOrder, FindingKind::kAttitudeSign,

@@ -22,13 +22,15 @@ inline constexpr std::size_t kNumLegOrders = 24;
 /// moves feet of one end and side apart from those of the other.
 class LegOrderCheck : public QualityCheck {
  public:
-  explicit LegOrderCheck(const LogSubject& subject) : subject_(subject) {}
+  explicit LegOrderCheck(const LogSubject& subject) : subject_(subject) {
+    if (subject.robot != nullptr) leg_ticks_.emplace(*subject.robot, subject.gravity_mps2);
+  }
   void AddTick(const Tick& tick) override;
   [[nodiscard]] std::vector<Finding> Conclude(const std::vector<Finding>& earlier) const override;
 
  private:
   LogSubject subject_;
-  StanceByTorque stance_;
+  std::optional<LegTickMaker> leg_ticks_;      // none without a robot
   std::array<BlockMean, kNumLegOrders> gain_;  // cost of the order as it is, minus that of each
   Moments cost_;
 };

@@ -14,11 +14,13 @@ constexpr std::uint64_t kUpdateEvery = 25, kFirst = 50;  // ticks
 
 LegArray<bool> StanceByTorque::Update(const LegArray<Vec3>& tau) {
   LegArray<bool> loaded(false);
+  if (std::all_of(tau.begin(), tau.end(), [&](const Vec3& t) { return t.norm() < least_Nm_; }))
+    return loaded;  // the robot lies
   for (const Leg leg : kLegs) {
     const double size = tau[leg].norm();
     const double bin = kBinsPerOctave * std::log2(std::max(size, kLeast_Nm) / kLeast_Nm);
     ++histogram_[std::min(kBins - 1, static_cast<std::size_t>(bin))];
-    loaded[leg] = threshold_Nm_ > 0.0 && size > threshold_Nm_;
+    loaded[leg] = threshold_Nm_ > 0.0 && size > std::max(threshold_Nm_, least_Nm_);
   }
   ++count_;
   if (count_ >= kFirst && count_ % kUpdateEvery == 0) UpdateThreshold();

@@ -16,12 +16,16 @@ class StanceByTorque {
   /// than twice. The large ones are those of nine tenths of all.
   static constexpr double kLoaded = 0.4, kLarge = 0.9;
 
+  /// @param least_Nm  a leg with smaller torques bears nothing.
+  explicit StanceByTorque(double least_Nm) : least_Nm_(least_Nm) {}
+
   /// @returns none in the first quarter of a second.
   LegArray<bool> Update(const LegArray<Vec3>& tau);
 
  private:
   static constexpr std::size_t kBins = 96;  // an eighth of an octave each, from 0.01 Nm on
   void UpdateThreshold();
+  double least_Nm_;
   std::array<std::uint32_t, kBins> histogram_{};
   std::uint64_t count_ = 0;
   double threshold_Nm_ = 0.0;

@@ -285,6 +285,18 @@ Result TorqueGain(Rows& rows, int) {
                   .size_within = 0.15 * kGain};
 }
 
+Result TorqueGainOfAJoint(Rows& rows, int place) {
+  constexpr double kGain = 1.5;
+  const Place at = JointOf(place);
+  for (Row& row : rows) (*row.measured->tau_Nm)[at.number] *= kGain;
+  return Expected{.kind = FindingKind::kTorqueScale,
+                  .signal = "joints.tau",
+                  .leg = at.leg(),
+                  .joint = at.joint(),
+                  .size = kGain,
+                  .size_within = 0.15 * kGain};
+}
+
 }  // namespace
 
 bool Names(const logs::Finding& f, const Expected& e) {
@@ -327,6 +339,8 @@ std::vector<Defect> Defects() {
       {"encoder stuck for 2 s", Needed::kNothing, StuckEncoder},
       {"foot sensor dead", Needed::kFootForce, DeadFootSensor},
       {"torque gain 1.5", Needed::kNothing, TorqueGain},
+      // Torques of HFE are small beside those of knees: their scale is told worse.
+      {"torque gain 1.5 of a joint", Needed::kNothing, TorqueGainOfAJoint, 7},
   };
 }
 

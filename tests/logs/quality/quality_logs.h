@@ -21,7 +21,7 @@ struct CleanLog {
 };
 
 /// A few seconds of the Go2 as a field log has them: without truth, the estimate for attitude.
-/// @param scenario  "flat" or "rough".
+/// @param scenario  of the repository, as "rough"; "flat" walks and turns as the seed says.
 [[nodiscard]] CleanLog WalkOfGo2(const std::string& scenario, int seed);
 
 /// data/logs/go1_sim_trot_mpi and data/logs/minicheetah_raisim by their mappings.

@@ -73,8 +73,21 @@ const RecordedCase kCases[] = {
     {"SignOfSpiritsAcceleration",
      "spirit40_imu_flipped/test2.csv",
      "ros1_imu_csv",
-     ", axes: \\[-x, -y, -z\\]",
-     {.kind = FindingKind::kGravitySign, .words = "-z"}},
+     ", axes: \\[y, x, -z\\]",
+     {.kind = FindingKind::kGravitySign, .words = "[y, x, -z]"}},
+    {"AxesOfSpiritsGyroscope",
+     "spirit40_imu_flipped/test2.csv",
+     "ros1_imu_csv",
+     ", axes: \\[y, x, -z\\]",
+     {.kind = FindingKind::kAttitudeSign,
+      .signal = "imu.attitude",
+      .words = "imu.rate, imu.acceleration: axes [y, x, -z]"}},
+    {"NoAxesOfSpiritsGyroscopeByItsMapping",
+     "spirit40_imu_flipped/test2.csv",
+     "ros1_imu_csv",
+     {},
+     {.kind = FindingKind::kAttitudeSign, .signal = "imu.attitude"},
+     false},
     {"NoSignOfSpiritsAccelerationByItsMapping",
      "spirit40_imu_flipped/test2.csv",
      "ros1_imu_csv",
@@ -129,6 +142,13 @@ TEST_P(RecordedLogs, IsFound) {
 
 INSTANTIATE_TEST_SUITE_P(Of, RecordedLogs, testing::ValuesIn(kCases),
                          [](const auto& test_info) { return test_info.param.name; });
+
+TEST(RecordedLogs, RobotThatLiesAndGetsUpHasNoWrongJoints) {
+  if (!RecordedLog("")) GTEST_SKIP() << "SCORIA_REFERENCE_DATA is not set";
+  const std::vector<logs::Row> rows = ReadRecordedLog({"go2_vicon_orl/test_4"});
+  for (const Finding& f : Judge(Window(rows, 0), &Go2()))
+    EXPECT_NE(f.severity, logs::Severity::kError) << DescribeFinding(f);
+}
 
 std::vector<Finding> MessageFindings(const std::string& name) {
   const std::unique_ptr<logs::LogSource> log = logs::OpenLog(*RecordedLog(name));
