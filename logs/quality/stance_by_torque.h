@@ -16,8 +16,8 @@ class StanceByTorque {
   /// than twice. The large ones are those of nine tenths of all.
   static constexpr double kLoaded = 0.4, kLarge = 0.9;
 
-  /// @param least_Nm  a leg with smaller torques bears nothing.
-  explicit StanceByTorque(double least_Nm) : least_Nm_(least_Nm) {}
+  /// @param least_Nm  a leg with smaller torques bears nothing: of a robot that may lie.
+  explicit StanceByTorque(double least_Nm = 0.0) : least_Nm_(least_Nm) {}
 
   /// @returns none in the first quarter of a second.
   LegArray<bool> Update(const LegArray<Vec3>& tau);
