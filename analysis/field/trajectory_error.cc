@@ -32,6 +32,18 @@ void TrajectoryErrorAccumulator::Add(const PosePair& now) {
   drift_.Add(now);
 }
 
+void TrajectoryErrorAccumulator::AddRow(const logs::Row& row) {
+  const bool walks = !row.episode || (row.episode->operating && !row.episode->fallen);
+  const std::uint32_t segment = row.episode ? row.episode->segment : 0;
+  if (walks_ && (!walks || segment != segment_)) Break();
+  walks_ = walks;
+  segment_ = segment;
+  if (!walks || !row.truth || !row.estimate) return;
+  const auto vector = [](const logs::Array3& v) { return Vec3(v[0], v[1], v[2]); };
+  Add({vector(row.truth->p_WB_m), vector(row.estimate->p_WB_m), row.truth->rpy_rad[2],
+       row.estimate->rpy_rad[2]});
+}
+
 /// With means taken away, the yaw that leaves least turns the sum of true est^T about z as far as
 /// it goes: its trace is then the root of the squares of trace and difference.
 void TrajectoryErrorAccumulator::Break() {

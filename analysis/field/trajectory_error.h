@@ -9,6 +9,7 @@
 
 #include "analysis/metrics/estimation_metrics.h"
 #include "core/math/types.h"
+#include "logs/row.h"
 
 namespace scoria::analysis {
 
@@ -35,6 +36,9 @@ class TrajectoryErrorAccumulator {
   static constexpr double kLeastDistance_m = 0.5;
 
   void Add(const PosePair& now);
+  /// Truth and estimate of a row, where it has both. Of a row with an episode they count while the
+  /// robot walks; falls and placements end a stretch.
+  void AddRow(const logs::Row& row);
   /// The robot was placed elsewhere, or either trajectory begins anew.
   void Break();
   [[nodiscard]] TrajectoryError Finish();
@@ -49,6 +53,8 @@ class TrajectoryErrorAccumulator {
     double squares_xy = 0.0, squares_z = 0.0;
     double largest_distance_m = 0.0;
   };
+  bool walks_ = false;
+  std::uint32_t segment_ = 0;
   Stretch stretch_;
   DriftTracker drift_;
   TrajectoryError error_;

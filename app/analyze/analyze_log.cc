@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/field/aligned_rows.h"
 #include "analysis/metrics/metrics.h"
 #include "analysis/report/course_figure.h"
 #include "app/analyze/accept.h"
@@ -135,6 +136,7 @@ class Analysis {
                             ? fmt::format("{} ({})", robot_.robot->config.name, robot_.source)
                             : robot_.source;
     Survey();
+    AlignTruth();
     SetUp();
     Measure();
     return std::move(result_);
@@ -160,10 +162,29 @@ class Analysis {
     const auto& mapping = survey_.report.mapping;
     result_.log.remarks.push_back(mapping ? fmt::format("rows by the mapping {}", mapping->mapping)
                                           : std::string("rows of its own"));
-    if (mapping && mapping->truth_is_of_markers)
-      result_.log.remarks.emplace_back(
-          "truth is of a body of markers, whose place on the trunk is not known");
     if (!survey_.report.problem.empty()) result_.log.remarks.push_back(survey_.report.problem);
+  }
+
+  void AlignTruth() {
+    const auto& mapping = survey_.report.mapping;
+    if (!mapping || !mapping->truth_is_of_markers) return;
+    analysis::TruthAlignmentEstimator estimator(robot_.robot.get(), options_.gravity_mps2);
+    rows_.ForEach([&](const logs::Row& row) { estimator.AddRow(row); });
+    result_.truth_alignment = estimator.Estimate();
+    result_.log.remarks.push_back("a body of markers shows the truth: " +
+                                  analysis::DescribeAlignment(*result_.truth_alignment));
+  }
+
+  /// Rows whose truth is the trunk's, where that is known.
+  void ForEachAlignedRow(const std::function<void(const logs::Row&)>& on_row) const {
+    const auto& found = result_.truth_alignment;
+    if (!found || !found->alignment) {
+      rows_.ForEach(on_row);
+      return;
+    }
+    analysis::AlignedRows aligned(*found->alignment, on_row);
+    rows_.ForEach([&](const logs::Row& row) { aligned.Add(row); });
+    aligned.Finish();
   }
 
   void SetUp() {
@@ -198,18 +219,21 @@ class Analysis {
     constexpr std::size_t kMostRows = 20'000;
     analysis::CourseFigure course(kMostRows);
     logs::RowGroups stand_ins;
+    analysis::TrajectoryErrorAccumulator trajectory;
     const analysis::FieldRows* completed = nullptr;
     analysis::FieldRows rows(setup_, [&](const logs::Row& row, const logs::RowGroups& filled) {
       stand_ins |= filled;
       whole.AddRow(row, filled);
+      if (!Has(filled, RowGroup::kTruth)) trajectory.AddRow(row);
       parts.AddRow(row, filled, completed->falls());
       course.Add(row);
     });
     completed = &rows;
-    rows_.ForEach([&](const logs::Row& row) {
+    ForEachAlignedRow([&](const logs::Row& row) {
       if (!IsWithin(row.time_s, left_out_)) rows.Add(row);
     });
     rows.Finish();
+    if (survey_.with_truth > 0) result_.trajectory_error = trajectory.Finish();
     for (const analysis::FallEvent& fall : rows.falls()) whole.AddFall(fall);
     const auto finish = [&](analysis::EpisodeMetrics& metrics) {
       metrics.substitutes = Describe(setup_, survey_, stand_ins, result_.log.mass);

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "analysis/field/field_rows.h"
+#include "analysis/field/trajectory_error.h"
+#include "analysis/field/truth_alignment.h"
 #include "analysis/study/field_log.h"
 #include "app/analyze/labels.h"
 #include "app/analyze/walk_parts.h"
@@ -29,6 +31,11 @@ struct LogAnalysis {
   analysis::FieldLog log;
   std::vector<WalkParts::Part> parts;
   std::optional<double> cpu_power_W = std::nullopt;  // mean
+  /// Of a truth of markers. Where it is found, all that is computed with the truth is so of the
+  /// trunk's, in time.
+  std::optional<analysis::TruthAlignmentResult> truth_alignment = std::nullopt;
+  /// Of the log's estimate; none where the log has no truth.
+  std::optional<analysis::TrajectoryError> trajectory_error = std::nullopt;
 };
 
 /// @param files  one path, or several CSV files on one clock.

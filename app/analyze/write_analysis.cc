@@ -54,9 +54,13 @@ json ToJson(const LogAnalysis& analysis) {
                  {"findings", json::array()},
                  {"metrics", log.metrics},
                  {"parts", json::array()},
-                 {"cpu_power_W", nullptr}};
+                 {"cpu_power_W", nullptr},
+                 {"truth_alignment", nullptr},
+                 {"trajectory_error", nullptr}};
   object["metrics"]["scalars"] = NumbersOf(log.metrics);
   if (analysis.cpu_power_W) object["cpu_power_W"] = *analysis.cpu_power_W;
+  if (analysis.truth_alignment) object["truth_alignment"] = *analysis.truth_alignment;
+  if (analysis.trajectory_error) object["trajectory_error"] = *analysis.trajectory_error;
   for (const auto& file : log.files) object["files"].push_back(file.string());
   for (const logs::Finding& finding : log.findings) object["findings"].push_back(ToJson(finding));
   for (const WalkParts::Part& part : analysis.parts) {

@@ -30,31 +30,6 @@ core::ConfigError VariantError(const std::string& text, const std::string& rule)
   return {{}, "", fmt::format("--variant {}: {}", text, rule)};
 }
 
-/// Trajectory errors of the rows of a robot that walks.
-class TrajectoryScore {
- public:
-  /// @pre the row has an episode.
-  void Add(const logs::Row& row) {
-    const bool walks = row.episode->operating && !row.episode->fallen;
-    if (walks_ && (!walks || row.episode->segment != segment_)) errors_.Break();
-    walks_ = walks;
-    segment_ = row.episode->segment;
-    if (!walks || !row.truth || !row.estimate) return;
-    const logs::TruthRow& truth = *row.truth;
-    const logs::EstimateRow& estimate = *row.estimate;
-    errors_.Add(
-        {ToVec3(truth.p_WB_m), ToVec3(estimate.p_WB_m), truth.rpy_rad[2], estimate.rpy_rad[2]});
-  }
-  [[nodiscard]] analysis::TrajectoryError Finish() { return errors_.Finish(); }
-
- private:
-  static Vec3 ToVec3(const logs::Array3& v) { return {v[0], v[1], v[2]}; }
-
-  analysis::TrajectoryErrorAccumulator errors_;
-  bool walks_ = false;
-  std::uint32_t segment_ = 0;
-};
-
 /// One variant, its scores and its files.
 class VariantRun {
  public:
@@ -113,7 +88,7 @@ class VariantRun {
                mine);
     result_.groups |= logs::GroupsOf(mine);
     estimation_.AddRow(mine);
-    trajectory_.Add(mine);
+    trajectory_.AddRow(mine);
     if (tum_) tum_->Add(mine.time_s, mine.estimate->p_WB_m, mine.estimate->rpy_rad);
     if (keep_rows_) kept_.push_back(std::move(mine));
   }
@@ -145,7 +120,7 @@ class VariantRun {
   LogObserver observer_;
   VariantResult result_;
   analysis::EstimationAccumulator estimation_;
-  TrajectoryScore trajectory_;
+  analysis::TrajectoryErrorAccumulator trajectory_;
   analysis::ConsistencyAccumulator consistency_;
   std::uint64_t mass_rows_ = 0, feet_rows_ = 0;
   double sum_mass_kg_ = 0.0, sum_feet_N_ = 0.0, last_sigma_kg_ = 0.0;
@@ -175,7 +150,7 @@ class LoggedRun {
     if (!scored.episode) scored.episode = logs::EpisodeRow{.operating = true};
     groups_ |= logs::GroupsOf(scored);
     estimation_.AddRow(scored);
-    trajectory_.Add(scored);
+    trajectory_.AddRow(scored);
   }
 
   void Add(const std::string& variant, const std::vector<logs::Row>& rows) {
@@ -199,7 +174,7 @@ class LoggedRun {
   std::unique_ptr<ReplayLogFile> log_;
   std::unique_ptr<TumFile> estimate_, truth_;
   analysis::EstimationAccumulator estimation_;
-  TrajectoryScore trajectory_;
+  analysis::TrajectoryErrorAccumulator trajectory_;
   logs::RowGroups groups_;
 };
 

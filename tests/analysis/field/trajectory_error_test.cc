@@ -73,6 +73,26 @@ TEST(TrajectoryError, StretchesAreAlignedEachByItself) {
   EXPECT_LT(error.ate_m, 1e-6);
 }
 
+TEST(TrajectoryError, RowsCountWhileTheRobotWalksAndPlacementsEndAStretch) {
+  TrajectoryErrorAccumulator accumulator;
+  for (int k = 0; k < kPoints; ++k) {
+    const bool is_placed = k >= kPoints / 2, is_fallen = k > kPoints / 2 - 100 && !is_placed;
+    const Vec3 p = PathAt(k), q = p + (is_placed ? Vec3(8.0, 0.0, 0.0) : Vec3::Zero());
+    logs::Row row;
+    row.episode.emplace();
+    row.episode->operating = true;
+    row.episode->fallen = is_fallen;
+    row.episode->segment = is_placed ? 1 : 0;
+    row.truth.emplace().p_WB_m = {p.x(), p.y(), p.z()};
+    row.estimate.emplace().p_WB_m = {q.x(), q.y(), is_fallen ? 5.0 : q.z()};
+    accumulator.AddRow(row);
+  }
+  const TrajectoryError error = accumulator.Finish();
+  EXPECT_EQ(error.stretches, 2);
+  EXPECT_EQ(error.samples, static_cast<std::uint64_t>(kPoints - 99));
+  EXPECT_LT(error.ate_m, 1e-6);
+}
+
 TEST(TrajectoryError, StandingRobotIsRefused) {
   TrajectoryErrorAccumulator accumulator;
   for (int k = 0; k < kPoints; ++k) {
