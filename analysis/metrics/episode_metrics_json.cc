@@ -38,17 +38,18 @@ void from_json(const json& j, FallEvent& f) {
 }
 
 void to_json(json& j, const LegTiming& t) {
-  j = {{"strides", t.strides},
-       {"stride_s", t.stride_s},
-       {"stance_s", t.stance_s},
+  j = {{"strides", json::array()},
        {"phase", {t.phase.real(), t.phase.imag()}},
        {"phases", t.phases}};
+  for (const auto& [number, bin] : t.bins)
+    j["strides"].push_back({number, bin.count, bin.stride_s, bin.stance_s});
 }
 
 void from_json(const json& j, LegTiming& t) {
-  j.at("strides").get_to(t.strides);
-  j.at("stride_s").get_to(t.stride_s);
-  j.at("stance_s").get_to(t.stance_s);
+  for (const json& bin : j.at("strides")) {
+    t.bins[bin.at(0).get<int>()] = {bin.at(1).get<std::uint64_t>(), bin.at(2).get<double>(),
+                                    bin.at(3).get<double>()};
+  }
   t.phase = {j.at("phase").at(0).get<double>(), j.at("phase").at(1).get<double>()};
   j.at("phases").get_to(t.phases);
 }

@@ -13,30 +13,62 @@ std::optional<double> Ratio(double sum, double of) noexcept {
 
 }  // namespace
 
-std::optional<double> LegTiming::MeanStride() const noexcept {
-  return Ratio(stride_s, static_cast<double>(strides));
+StrideBin& StrideBin::operator+=(const StrideBin& other) noexcept {
+  count += other.count;
+  stride_s += other.stride_s;
+  stance_s += other.stance_s;
+  return *this;
 }
-std::optional<double> LegTiming::MeanStance() const noexcept {
-  return Ratio(stance_s, static_cast<double>(strides));
-}
-std::optional<double> LegTiming::Duty() const noexcept { return Ratio(stance_s, stride_s); }
 
-std::optional<double> LegTiming::Phase() const noexcept {
+void LegTiming::Add(double stride_s, double stance_s) {
+  bins[static_cast<int>(stride_s / kBin_s)] += {1, stride_s, stance_s};
+}
+
+StrideBin LegTiming::Regular() const {
+  std::uint64_t all = 0, below = 0;
+  for (const auto& [number, bin] : bins) all += bin.count;
+  double median_s = 0.0;
+  for (const auto& [number, bin] : bins) {
+    if (2 * below < all) median_s = bin.stride_s / static_cast<double>(bin.count);
+    below += bin.count;
+  }
+  StrideBin regular;
+  for (const auto& [number, bin] : bins) {
+    const double mean_s = bin.stride_s / static_cast<double>(bin.count);
+    if (mean_s * kRegular >= median_s && mean_s <= kRegular * median_s) regular += bin;
+  }
+  return regular;
+}
+
+std::optional<double> LegTiming::MeanStride() const {
+  const StrideBin regular = Regular();
+  return Ratio(regular.stride_s, static_cast<double>(regular.count));
+}
+
+std::optional<double> LegTiming::MeanStance() const {
+  const StrideBin regular = Regular();
+  return Ratio(regular.stance_s, static_cast<double>(regular.count));
+}
+
+std::optional<double> LegTiming::Duty() const {
+  const StrideBin regular = Regular();
+  return Ratio(regular.stance_s, regular.stride_s);
+}
+
+std::optional<double> LegTiming::Phase() const {
   if (phases == 0) return std::nullopt;
   const double turns = std::arg(phase) / (2.0 * std::numbers::pi);
   return turns < 0.0 ? turns + 1.0 : turns;
 }
 
-LegTiming& LegTiming::operator+=(const LegTiming& other) noexcept {
-  strides += other.strides;
-  stride_s += other.stride_s;
-  stance_s += other.stance_s;
+LegTiming& LegTiming::operator+=(const LegTiming& other) {
+  for (const auto& [number, bin] : other.bins) bins[number] += bin;
   phase += other.phase;
   phases += other.phases;
   return *this;
 }
 
-GaitTiming& GaitTiming::operator+=(const GaitTiming& other) noexcept {
+GaitTiming& GaitTiming::operator+=(const GaitTiming& other) {
   for (const Leg leg : kLegs) legs[leg] += other.legs[leg];
   return *this;
 }
@@ -48,7 +80,7 @@ void GaitTimer::Break() noexcept {
   reference_stride_s_.reset();
 }
 
-void GaitTimer::Add(double time_s, const logs::PerLeg<bool>& contact) noexcept {
+void GaitTimer::Add(double time_s, const logs::PerLeg<bool>& contact) {
   for (const Leg leg : kLegs) {
     LegState& state = legs_[leg];
     const bool now = contact[static_cast<std::size_t>(leg)];
@@ -62,7 +94,7 @@ void GaitTimer::Add(double time_s, const logs::PerLeg<bool>& contact) noexcept {
 }
 
 /// The last change of the contact has lasted.
-void GaitTimer::Settle(Leg leg, LegState& state) noexcept {
+void GaitTimer::Settle(Leg leg, LegState& state) {
   if (state.on == state.raw) return;
   state.on = state.raw;
   if (state.raw) {
@@ -72,13 +104,11 @@ void GaitTimer::Settle(Leg leg, LegState& state) noexcept {
   }
 }
 
-void GaitTimer::Touchdown(Leg leg, double time_s) noexcept {
+void GaitTimer::Touchdown(Leg leg, double time_s) {
   LegState& state = legs_[leg];
   LegTiming& timing = timing_.legs[leg];
   if (state.down_s && state.up_s && time_s - *state.down_s <= kLongest_s) {
-    ++timing.strides;
-    timing.stride_s += time_s - *state.down_s;
-    timing.stance_s += *state.up_s - *state.down_s;
+    timing.Add(time_s - *state.down_s, *state.up_s - *state.down_s);
     if (leg == Leg::kFL) reference_stride_s_ = time_s - *state.down_s;
   }
   if (leg == Leg::kFL) reference_s_ = time_s;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <complex>
 #include <cstdint>
+#include <map>
 #include <optional>
 
 #include "core/robot/legs.h"
@@ -11,25 +11,37 @@
 
 namespace scoria::analysis {
 
-/// Strides of one leg, added up: from touchdown to touchdown.
-struct LegTiming {
-  std::uint64_t strides = 0;
+/// Strides of about one length, added up.
+struct StrideBin {
+  std::uint64_t count = 0;
   double stride_s = 0.0, stance_s = 0.0;  // sums
+  StrideBin& operator+=(const StrideBin& other) noexcept;
+  bool operator==(const StrideBin&) const = default;
+};
+
+/// Strides of one leg, from touchdown to touchdown. Means are of the regular ones, from 2/3 to 3/2
+/// of the median stride: a stumble makes two short strides of one, a touchdown that was missed one
+/// long stride of two.
+struct LegTiming {
+  static constexpr double kBin_s = 0.02, kRegular = 1.5;
+  std::map<int, StrideBin> bins;  // by stride over kBin_s
   /// Sum of exp(2πi φ), φ the touchdown's place in the front left leg's stride, over `phases`.
   std::complex<double> phase;
   std::uint64_t phases = 0;
-  [[nodiscard]] std::optional<double> MeanStride() const noexcept;  // s
-  [[nodiscard]] std::optional<double> MeanStance() const noexcept;  // s
-  [[nodiscard]] std::optional<double> Duty() const noexcept;        // share of stance
-  [[nodiscard]] std::optional<double> Phase() const noexcept;       // in [0, 1)
-  LegTiming& operator+=(const LegTiming& other) noexcept;
+  void Add(double stride_s, double stance_s);
+  [[nodiscard]] StrideBin Regular() const;
+  [[nodiscard]] std::optional<double> MeanStride() const;  // s
+  [[nodiscard]] std::optional<double> MeanStance() const;  // s
+  [[nodiscard]] std::optional<double> Duty() const;        // share of stance
+  [[nodiscard]] std::optional<double> Phase() const;       // in [0, 1)
+  LegTiming& operator+=(const LegTiming& other);
   bool operator==(const LegTiming&) const = default;
 };
 
 /// Times of the gait of an episode, or of several added up.
 struct GaitTiming {
   LegArray<LegTiming> legs;
-  GaitTiming& operator+=(const GaitTiming& other) noexcept;
+  GaitTiming& operator+=(const GaitTiming& other);
   bool operator==(const GaitTiming&) const = default;
 };
 
@@ -38,9 +50,9 @@ struct GaitTiming {
 /// strides than kLongest_s are standing.
 class GaitTimer {
  public:
-  static constexpr double kBounce_s = 0.04, kLongest_s = 3.0;
+  static constexpr double kBounce_s = 0.08, kLongest_s = 3.0;
 
-  void Add(double time_s, const logs::PerLeg<bool>& contact) noexcept;
+  void Add(double time_s, const logs::PerLeg<bool>& contact);
   /// Samples before and after belong to different stretches of walking.
   void Break() noexcept;
   [[nodiscard]] const GaitTiming& timing() const noexcept { return timing_; }
@@ -51,8 +63,8 @@ class GaitTimer {
     std::optional<double> raw_s;         // since when that is; none: since the stretch began
     std::optional<double> down_s, up_s;  // of the stride that is under way
   };
-  void Settle(Leg leg, LegState& state) noexcept;
-  void Touchdown(Leg leg, double time_s) noexcept;
+  void Settle(Leg leg, LegState& state);
+  void Touchdown(Leg leg, double time_s);
 
   GaitTiming timing_;
   LegArray<LegState> legs_;

@@ -7,7 +7,7 @@ namespace {
 
 using logs::RowGroup;
 
-template <Leg leg, std::optional<double> (LegTiming::*value)() const noexcept>
+template <Leg leg, std::optional<double> (LegTiming::*value)() const>
 std::optional<Measured> Of(const EpisodeMetrics& m) {
   const std::optional<double> found = (m.gait.legs[leg].*value)();
   return found ? std::optional(Measured{*found}) : std::nullopt;
@@ -32,11 +32,13 @@ MetricInfo TimeInfo(std::string_view key, std::string_view title, std::string_vi
 }
 
 constexpr std::string_view kStride =
-    "Mean time from touchdown to touchdown of the foot; a foot that is off the ground, or on it, "
-    "for "
-    "less than 40 ms has not changed between stance and swing.";
-constexpr std::string_view kStance = "Mean time from touchdown to lift-off of the foot.";
-constexpr std::string_view kDuty = "Time on the ground over time, of whole strides.";
+    "Mean time from touchdown to touchdown of the foot, of strides from 2/3 to 3/2 of the median; "
+    "a "
+    "foot that is off the ground, or on it, for less than 80 ms has not changed between stance and "
+    "swing.";
+constexpr std::string_view kStance =
+    "Mean time from touchdown to lift-off of the foot, of the same strides.";
+constexpr std::string_view kDuty = "Time on the ground over time, of the same strides.";
 constexpr std::string_view kPhase =
     "When the foot touches down in the stride of the front left one, as a share of it: mean "
     "direction "

@@ -46,7 +46,7 @@ void ExpectWalk(const GaitTiming& timing) {
 TEST(GaitTimer, MeasuresStridesOfAWalk) {
   const GaitTiming timing = Time(10.0, [](int, auto&) {});
   ExpectWalk(timing);
-  EXPECT_EQ(timing.legs[Leg::kFL].strides, 11U);  // 12 touchdowns from 0.8 s on
+  EXPECT_EQ(timing.legs[Leg::kFL].Regular().count, 11U);  // 12 touchdowns from 0.8 s on
 }
 
 TEST(GaitTimer, BouncesAndScuffsAreNoStrides) {
@@ -58,6 +58,18 @@ TEST(GaitTimer, BouncesAndScuffsAreNoStrides) {
   }));
 }
 
+TEST(GaitTimer, StumblesAreLeftOutOfTheMeans) {
+  const GaitTiming timing = Time(20.0, [](int k, logs::PerLeg<bool>& contact) {
+    const bool lost_early = k % 4000 > 200 && k % 4000 < 350;  // two strides of 0.35 and 0.45 s
+    const bool not_seen = k >= 10'400 && k < 11'000;           // one of 1.6 s
+    if (lost_early || not_seen) contact[0] = false;
+  });
+  const LegTiming& leg = timing.legs[Leg::kFL];
+  EXPECT_LT(leg.Regular().count, timing.legs[Leg::kHR].Regular().count - 5);
+  EXPECT_NEAR(*leg.MeanStride(), 0.8, 1e-3);
+  EXPECT_NEAR(*leg.MeanStance(), 0.5, 1e-3);
+}
+
 TEST(GaitTimer, StandingIsNoStrideAndABreakEndsOne) {
   GaitTimer timer;
   for (int k = 0; k < 4000; ++k) timer.Add(1e-3 * k, {true, true, true, true});
@@ -66,14 +78,14 @@ TEST(GaitTimer, StandingIsNoStrideAndABreakEndsOne) {
     if (k % 700 == 0) timer.Break();
     timer.Add(4.0 + 1e-3 * k, Walk(1e-3 * k));
   }
-  EXPECT_EQ(timer.timing().legs[Leg::kFL].strides, 0U);
+  EXPECT_EQ(timer.timing().legs[Leg::kFL].Regular().count, 0U);
 }
 
 TEST(GaitTiming, AddsUpOverEpisodes) {
   GaitTiming sum = Time(10.0, [](int, auto&) {});
   const GaitTiming once = sum;
   sum += once;
-  EXPECT_EQ(sum.legs[Leg::kHR].strides, 2 * once.legs[Leg::kHR].strides);
+  EXPECT_EQ(sum.legs[Leg::kHR].Regular().count, 2 * once.legs[Leg::kHR].Regular().count);
   ExpectWalk(sum);
 }
 
