@@ -23,7 +23,7 @@ struct EnergyMeter {
 /// Motors with gear: command delay, joint PD, torque-speed envelope, electrical power, battery.
 /// The drive's joint PD acts on what its encoders measure; envelope, power and energy are physics
 /// and take the true joint speeds.
-/// Rotor inertia, damping and friction of the joints act inside the physics step (World).
+/// Rotor inertia, damping and friction of the joints act inside the physics step (Plant).
 class Actuation {
  public:
   explicit Actuation(const core::RobotDescription& robot);
@@ -41,7 +41,7 @@ class Actuation {
 
   /// Meters the energy of the step that Update's torques have just driven. The work of a constant
   /// torque over a semi-implicit step is τ times the mean of the true speeds before and after it,
-  /// as in the energy ledger (World).
+  /// as in the energy ledger (Plant).
   void Meter(const LegArray<Vec3>& qd_before, const LegArray<Vec3>& qd_after, double dt_s) noexcept;
 
   /// Motor torques of the last step, before friction.

@@ -7,7 +7,7 @@
 
 #include "core/config/archive.h"
 #include "core/math/types.h"
-#include "sim/step_solver.h"
+#include "sim/plant/contact_point.h"
 #include "terrains/heightfield.h"
 
 namespace scoria::sim {

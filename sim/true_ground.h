@@ -10,7 +10,7 @@ namespace scoria::sim {
 /// The ground as it is, around the robot as it is: for a controller that shall know it.
 class TrueGround final : public LocalGround {
  public:
-  /// Both are borrowed; `state` is the true one, as a world keeps it.
+  /// Both are borrowed; `state` is the true one, as a plant keeps it.
   TrueGround(const terrains::Heightfield& ground, const RobotState& state) noexcept
       : ground_(ground), state_(state) {}
 

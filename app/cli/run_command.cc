@@ -29,7 +29,8 @@ void PrintSummary(const Scenario& scenario, const EpisodeReport& report,
     fmt::print(" {} {:.0f} %,", name, 100.0 * r.times[stage] / r.times.sum());
   fmt::print(" of {:.1f} us per step\n",
              r.times.sum() / r.duration_s * scenario.physics.step_s * 1e6);
-  fmt::print("  state hash    {:016x}\n  files         {}\n", r.state_hash, folder);
+  fmt::print("  engine        {}\n  state hash    {:016x}\n  files         {}\n",
+             sim::EngineName(scenario.physics.engine), r.state_hash, folder);
 }
 
 }  // namespace

@@ -38,8 +38,8 @@ Episode::Episode(const Scenario& scenario, const core::RobotDescription& robot,
     : scenario_(scenario),
       robot_(robot),
       ground_(ground),
-      world_(robot, ground, scenario.physics, GravityOf(scenario), scenario.sliding_payload),
-      payloads_(world_.truth().trunk, scenario.payloads),
+      plant_(robot, ground, scenario.physics, GravityOf(scenario), scenario.sliding_payload),
+      payloads_(plant_.truth().trunk, scenario.payloads),
       actuation_(robot),
       sensors_(robot, scenario.sensors, scenario.sensor_faults, GravityOf(scenario),
                scenario.physics.step_s, scenario.seed),
@@ -76,8 +76,8 @@ void Episode::Intervene(const Intervention& intervention) {
 
 void Episode::Apply(const PayloadOff&) {
   if (const auto change = payloads_.RemoveAll())
-    world_.SetTrunkParameters(change->trunk, change->attach_velocity);
-  world_.RemoveSlidingPayload();
+    plant_.SetTrunkParameters(change->trunk, change->attach_velocity);
+  plant_.RemoveSlidingPayload();
 }
 
 void Episode::Apply(const controller::ControllerParams& params) {
@@ -88,7 +88,7 @@ void Episode::Apply(const controller::ControllerParams& params) {
 /// What studies give the controller in place of its own findings; the ground is given in Step.
 controller::TrueInputs Episode::TrueInputsNow() const {
   controller::TrueInputs inputs;
-  const sim::Truth& truth = world_.truth();
+  const sim::Truth& truth = plant_.truth();
   if (truth_for_.state) inputs.state = truth.state;
   if (truth_for_.model) inputs.trunk = core::ModelParameters{truth.trunk};
   if (!truth_for_.contact) return inputs;
@@ -96,16 +96,16 @@ controller::TrueInputs Episode::TrueInputsNow() const {
   return inputs;
 }
 
-/// Sensors, operator, controller, actuation, world.
+/// Sensors, operator, controller, actuation, plant.
 void Episode::Step() {
   core::Lap lap(result_.times);
   const double dt = scenario_.physics.step_s;
-  sensed_ = sensors_.Read(world_.truth(), actuation_.motor_tau_Nm(), step_, clock(), give_truth_);
+  sensed_ = sensors_.Read(plant_.truth(), actuation_.motor_tau_Nm(), step_, clock(), give_truth_);
   command_ = NextCommand();
   faults_ = solver_faults_.Draw(clock());
   lap.Book(core::Stage::kSensors);
   retired_.reset();
-  const sim::TrueGround true_ground(ground_, world_.truth().state);
+  const sim::TrueGround true_ground(ground_, plant_.truth().state);
   controller::TrueInputs true_inputs = TrueInputsNow();
   if (truth_for_.ground) true_inputs.ground = &true_ground;
   const controller::ControlOutput& control =
@@ -118,9 +118,9 @@ void Episode::Step() {
   Show();
   lap.Book(core::Stage::kRecord);
   MakeChanges();
-  const LegArray<Vec3> qd_before = world_.truth().state.qd;
-  world_.Step(actuation_.Update(control.command, {sensed_.q, sensed_.qd}, qd_before, dt));
-  actuation_.Meter(qd_before, world_.truth().state.qd, dt);
+  const LegArray<Vec3> qd_before = plant_.truth().state.qd;
+  plant_.Step(actuation_.Update(control.command, {sensed_.q, sensed_.qd}, qd_before, dt));
+  actuation_.Meter(qd_before, plant_.truth().state.qd, dt);
   if (control.operating) operating_s_ += dt;
   lap.Book(core::Stage::kPhysics);
   CheckRobot();
@@ -137,17 +137,17 @@ Command Episode::NextCommand() {
   const bool ready = operating_s_ >= scenario_.fall.stand_s && !fallen_;
   if (!ready) return {};
   walking_s_ += scenario_.physics.step_s;
-  return operator_.Update(world_.truth().state, walking_s_, scenario_.physics.step_s);
+  return operator_.Update(plant_.truth().state, walking_s_, scenario_.physics.step_s);
 }
 
 /// What the scenario's timed events change before the physics moves on.
 void Episode::MakeChanges() {
-  const double yaw_rad = core::RpyFromRotation(world_.truth().state.R_WB).z();
+  const double yaw_rad = core::RpyFromRotation(plant_.truth().state.R_WB).z();
   const core::EventClock now = clock();
   for (const Push& push : pushes_.Update(now, yaw_rad)) Announce("push", DescribePush(push));
-  world_.SetTrunkWrench(pushes_.ForceAt(now), Vec3::Zero());
+  plant_.SetTrunkWrench(pushes_.ForceAt(now), Vec3::Zero());
   for (const sim::TrunkChange& change : payloads_.Update(now))
-    world_.SetTrunkParameters(change.trunk, change.attach_velocity);
+    plant_.SetTrunkParameters(change.trunk, change.attach_velocity);
   for (const std::string& text : payloads_.announcements()) Announce("payload", text);
   while (const ControllerChange* change = changes_.Next(now)) {
     controller_->Reconfigure(changes_.in_force());
@@ -157,7 +157,7 @@ void Episode::MakeChanges() {
 
 void Episode::UpdateHash() {
   hashed_ = step_ % kHashEvery == 0;
-  if (hashed_) result_.state_hash = ChainHash(world_.truth().state, result_.state_hash);
+  if (hashed_) result_.state_hash = ChainHash(plant_.truth().state, result_.state_hash);
 }
 
 void Episode::Show() {
@@ -192,7 +192,7 @@ void Episode::AnnounceSensors() {
 
 /// Falls, getting stuck, distance, and what the operator does about them.
 void Episode::CheckRobot() {
-  const sim::Truth& truth = world_.truth();
+  const sim::Truth& truth = plant_.truth();
   const Vec3& p_WB = truth.state.p_WB;
   const double dt_s = scenario_.physics.step_s;
   if (fallen_) {
@@ -221,7 +221,7 @@ void Episode::CheckRobot() {
 }
 
 void Episode::Fall(analysis::FallCause cause) {
-  const Vec3& p_WB = world_.truth().state.p_WB;
+  const Vec3& p_WB = plant_.truth().state.p_WB;
   const std::string_view name = core::EnumName(cause);
   fallen_ = true;
   CloseChord();
@@ -232,7 +232,7 @@ void Episode::Fall(analysis::FallCause cause) {
 }
 
 void Episode::CloseChord() {
-  path_.CloseChord(world_.truth().state.p_WB.head<2>());
+  path_.CloseChord(plant_.truth().state.p_WB.head<2>());
   result_.walked_m = path_.length_m();
 }
 
@@ -242,7 +242,7 @@ void Episode::CloseChord() {
 void Episode::PutOnFeet() {
   constexpr double kSamePlace_m = 1.0, kFurther_m = 0.25, kFurthest_m = 2.0;
   CloseChord();
-  const RobotState& state = world_.truth().state;
+  const RobotState& state = plant_.truth().state;
   const Vec2 here_W = state.p_WB.head<2>();
   const bool same = last_place_W_ && (*last_place_W_ - here_W).norm() < kSamePlace_m;
   further_m_ = same ? std::clamp(2.0 * further_m_, kFurther_m, kFurthest_m) : 0.0;
@@ -261,7 +261,7 @@ Place Episode::SetDown(const Place& wanted, double ahead_m, bool standing) {
   const auto [place, margin] = ChoosePlace(robot_, ground_, places);
   if (margin <= 0.0) Announce("poor_ground", DescribePoorGround(place));
   operator_.Resume(place);
-  world_.Reset(standing ? PlaceStanding(robot_, ground_, place)
+  plant_.Reset(standing ? PlaceStanding(robot_, ground_, place)
                         : PlaceLying(robot_, ground_, place));
   sensors_.Reset();
   actuation_.Reset();
@@ -294,7 +294,7 @@ void Episode::StartController(const Place& place, bool standing) {
 }
 
 std::optional<EpisodeEnd> Episode::FindEnd() const {
-  if (!IsFinite(world_.truth().state)) return EpisodeEnd::kNonFinite;
+  if (!IsFinite(plant_.truth().state)) return EpisodeEnd::kNonFinite;
   if (result_.falls > 0 && result_.falls >= scenario_.max_falls) return EpisodeEnd::kFallLimit;
   const auto* route = std::get_if<RouteParams>(&scenario_.operation);
   if (route != nullptr && result_.walked_m >= route->distance_m) return EpisodeEnd::kCompleted;
@@ -318,7 +318,7 @@ EpisodeResult Episode::Result() const {
   result.duration_s = time_s();
   result.counters = CountersSoFar();
   result.injected = solver_faults_.injected();
-  result.unconverged_steps = world_.unconverged_steps();
+  result.unconverged_steps = plant_.unconverged_steps();
   return result;
 }
 
@@ -328,7 +328,7 @@ Counters Episode::CountersSoFar() const {
 }
 
 StepRecord Episode::Record() const {
-  const sim::Truth& truth = world_.truth();
+  const sim::Truth& truth = plant_.truth();
   return {step_,
           time_s(),
           truth,

@@ -21,7 +21,7 @@
 
 namespace scoria::app {
 
-/// One episode in progress: operator, sensors, controller, actuation and world, step by step. The
+/// One episode in progress: operator, sensors, controller, actuation and plant, step by step. The
 /// same scenario gives the same bits, whatever is recorded.
 class Episode {
  public:
@@ -64,7 +64,7 @@ class Episode {
 
  private:
   Episode(const Episode&) = default;
-  void Apply(const FrictionScale& friction) { world_.SetFrictionScale(friction.factor); }
+  void Apply(const FrictionScale& friction) { plant_.SetFrictionScale(friction.factor); }
   void Apply(const TorqueLimitScale& limits) { actuation_.SetTorqueLimitScale(limits.factor); }
   void Apply(const PayloadOff&);
   void Apply(const TruthFor& stages) { truth_for_ = stages; }
@@ -97,7 +97,7 @@ class Episode {
   const terrains::Heightfield& ground_;
   std::vector<EpisodeObserver*> observers_;
 
-  sim::World world_;
+  sim::Plant plant_;
   sim::PayloadRack payloads_;
   sim::Actuation actuation_;
   sim::Sensors sensors_;

@@ -8,7 +8,7 @@
 
 namespace scoria::app {
 
-/// Walks one episode to its end: sensors -> controller -> actuation -> world, every physics step.
+/// Walks one episode to its end: sensors -> controller -> actuation -> plant, every physics step.
 /// @param observers    borrowed. @param interrupted  ends the episode once it is true; borrowed.
 [[nodiscard]] EpisodeResult RunEpisode(const Scenario& scenario,
                                        const core::RobotDescription& robot,

@@ -6,7 +6,7 @@
 
 #include "controller/controller.h"
 #include "sim/actuation.h"
-#include "sim/world.h"
+#include "sim/plant/plant.h"
 
 namespace scoria::app {
 

@@ -165,7 +165,7 @@ void BenchPhysics(const Options& o) {
   const core::RobotDescription robot = core::LoadRobot(scenario.robot);
   const terrains::Heightfield ground =
       terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);
-  sim::World world(robot, ground, scenario.physics, {0.0, 0.0, -scenario.gravity_mps2});
+  sim::Plant plant(robot, ground, scenario.physics, {0.0, 0.0, -scenario.gravity_mps2});
   sim::Actuation actuation(robot);
   RobotState state;
   state.q = controller::StandingPose(robot, robot.config.nominal_height_m);
@@ -175,7 +175,7 @@ void BenchPhysics(const Options& o) {
     const double ground_z = ground.HeightAt(p_BF.x(), p_BF.y());
     state.p_WB.z() = std::max(state.p_WB.z(), ground_z + robot.legs[leg].foot_radius_m - p_BF.z());
   }
-  world.Reset(state);
+  plant.Reset(state);
   JointCommand command;
   command.q = state.q;
   command.kp_Nm_per_rad = LegArray<Vec3>(Vec3::Constant(kStiffness_Nm_per_rad));
@@ -183,8 +183,8 @@ void BenchPhysics(const Options& o) {
   std::vector<double> us;
   for (int i = 0; i < kSteps; ++i) {
     const core::Stopwatch stopwatch;
-    const RobotState& now = world.truth().state;
-    world.Step(actuation.Update(command, {now.q, now.qd}, now.qd, scenario.physics.step_s));
+    const RobotState& now = plant.truth().state;
+    plant.Step(actuation.Update(command, {now.q, now.qd}, now.qd, scenario.physics.step_s));
     us.push_back(stopwatch.seconds() * kUsPerS);
   }
   const nlohmann::json json = {{"physics", Spread(us)}};

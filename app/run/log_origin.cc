@@ -182,6 +182,7 @@ logs::LogMetadata MakeLogMetadata(const Scenario& scenario, const core::RobotDes
                                   const logs::LogMetadata& extra) {
   logs::LogMetadata metadata = extra;
   metadata["scenario"] = EffectiveYaml(scenario);
+  metadata["engine"] = sim::EngineName(scenario.physics.engine);
   metadata["urdf"] = robot.urdf_text;
   metadata["meshes"] =
       ToJson(core::RecordMeshes(robot)).dump(-1, ' ', false, json::error_handler_t::replace);

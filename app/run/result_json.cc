@@ -49,6 +49,7 @@ nlohmann::json ResultToJson(const EpisodeReport& report, const Scenario& scenari
   return {{"scenario", scenario.name},
           {"seed", scenario.seed},
           {"version", kVersion},
+          {"engine", sim::EngineName(scenario.physics.engine)},
           {"end", core::EnumName(r.end)},
           {"falls", r.falls},
           {"stuck", r.stuck},

@@ -11,10 +11,10 @@
 #include "controller/controller.h"
 #include "core/robot/description.h"
 #include "sim/payload.h"
+#include "sim/plant/plant.h"
 #include "sim/sensors/faults.h"
 #include "sim/sensors/sensor_params.h"
 #include "sim/sliding_payload.h"
-#include "sim/world.h"
 #include "terrains/params.h"
 
 namespace scoria::app {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/robot/kinematics.h"
-#include "sim/step_solver.h"
+#include "sim/plant/contact_point.h"
 #include "terrains/heightfield.h"
 
 namespace scoria::sim {

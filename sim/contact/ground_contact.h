@@ -12,7 +12,7 @@ namespace scoria::sim {
 /// The ground as GroundContact sees it; never changes.
 struct GroundShape;
 
-/// `ground` is borrowed. Takes a while for a large ground; shared by the copies of a world, which
+/// `ground` is borrowed. Takes a while for a large ground; shared by the copies of a plant, which
 /// may end in any order.
 [[nodiscard]] std::shared_ptr<const GroundShape> MakeGroundShape(
     const terrains::Heightfield& ground);

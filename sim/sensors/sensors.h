@@ -6,13 +6,13 @@
 
 #include "core/robot/description.h"
 #include "core/robot/state.h"
+#include "sim/plant/truth.h"
 #include "sim/sensors/encoders.h"
 #include "sim/sensors/faults.h"
 #include "sim/sensors/foot_force.h"
 #include "sim/sensors/imu.h"
 #include "sim/sensors/sensor_params.h"
 #include "sim/sensors/torque_sensor.h"
-#include "sim/world.h"
 
 namespace scoria::sim {
 

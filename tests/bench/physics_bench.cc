@@ -5,7 +5,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "sim/world.h"
+#include "sim/plant/plant.h"
 #include "terrains/generator.h"
 #include "tests/support/mujoco.h"
 #include "tests/support/robots.h"
@@ -46,19 +46,38 @@ LegArray<Vec3> Trot(const RobotState& s, double time_s) {
 
 constexpr int kEpisode = 3000;  // steps, then from the start again
 
-void Scoria(benchmark::State& state) {
-  sim::World world(test::Go2(), Ground(), {}, {0.0, 0.0, -9.81});
+/// Which rows the solver has beside the contacts.
+struct JointLosses {
+  bool rotors = true, friction = true;
+};
+
+core::RobotDescription Go2With(const JointLosses& losses) {
+  core::RobotDescription robot = test::Go2();
+  core::MotorParams& motors = robot.config.motors;
+  if (!losses.rotors) {
+    motors.armature_kgm2.setZero();
+    motors.damping_Nms_per_rad.setZero();
+  }
+  if (!losses.friction) motors.friction_Nm.setZero();
+  return robot;
+}
+
+void Walk(benchmark::State& state, const sim::EngineParams& engine, const JointLosses& losses) {
+  const core::RobotDescription robot = Go2With(losses);
+  sim::PhysicsParams physics;
+  physics.engine = engine;
+  sim::Plant plant(robot, Ground(), physics, {0.0, 0.0, -9.81});
   int step = 0;
   std::int64_t iterations = 0;
   for (auto _ : state) {
-    if (step % kEpisode == 0) world.Reset(Start());
-    world.Step(Trot(world.truth().state, 0.001 * step));
-    iterations += world.solver_iterations();
+    if (step % kEpisode == 0) plant.Reset(Start());
+    plant.Step(Trot(plant.truth().state, 0.001 * step));
+    iterations += plant.solver_iterations();
     ++step;
   }
   state.counters["solver_iterations"] =
       static_cast<double>(iterations) / static_cast<double>(state.iterations());
-  state.counters["height_m"] = world.truth().state.p_WB.z();
+  state.counters["height_m"] = plant.truth().state.p_WB.z();
 }
 
 void Mujoco(benchmark::State& state) {
@@ -73,7 +92,20 @@ void Mujoco(benchmark::State& state) {
   state.counters["height_m"] = mujoco.state().p_WB.z();
 }
 
-BENCHMARK(Scoria)->Unit(benchmark::kMicrosecond)->Iterations(30000);
+BENCHMARK_CAPTURE(Walk, scoria, sim::ScoriaDynamics{}, JointLosses{})
+    ->Unit(benchmark::kMicrosecond)
+    ->Iterations(30000);
+BENCHMARK_CAPTURE(Walk, bullet, sim::BulletDynamics{}, JointLosses{})
+    ->Unit(benchmark::kMicrosecond)
+    ->Iterations(30000);
+BENCHMARK_CAPTURE(Walk, bullet_without_friction_rows, sim::BulletDynamics{},
+                  JointLosses{.friction = false})
+    ->Unit(benchmark::kMicrosecond)
+    ->Iterations(30000);
+BENCHMARK_CAPTURE(Walk, bullet_contacts_alone, sim::BulletDynamics{},
+                  JointLosses{.rotors = false, .friction = false})
+    ->Unit(benchmark::kMicrosecond)
+    ->Iterations(30000);
 BENCHMARK(Mujoco)->Unit(benchmark::kMicrosecond)->Iterations(30000);
 
 }  // namespace

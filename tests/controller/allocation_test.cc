@@ -5,8 +5,8 @@
 
 #include "controller/controller.h"
 #include "sim/actuation.h"
+#include "sim/plant/plant.h"
 #include "sim/sensors/sensors.h"
-#include "sim/world.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/robots.h"
 
@@ -30,8 +30,8 @@ TEST(Controller, StepNeverAllocates) {
     const core::RobotDescription& robot = test::Go2();
     const terrains::Heightfield ground = test::FlatGround();
     const Vec3 gravity_W(0.0, 0.0, -9.81);
-    sim::World world(robot, ground, {}, gravity_W);
-    world.Reset(test::StandingState());
+    sim::Plant plant(robot, ground, {}, gravity_W);
+    plant.Reset(test::StandingState());
     sim::Actuation actuation(robot);
     sim::Sensors sensors(robot, sim::RealisticSensors{}, {}, gravity_W, 0.001, 1);
     ControllerParams params;
@@ -41,7 +41,7 @@ TEST(Controller, StepNeverAllocates) {
     long allocations = 0;
     for (int step = 0; step < 2500; ++step) {
       const double time_s = 0.001 * step;
-      const SensorFrame z = sensors.Read(world.truth(), actuation.motor_tau_Nm(), step,
+      const SensorFrame z = sensors.Read(plant.truth(), actuation.motor_tau_Nm(), step,
                                          {time_s, 0.0, time_s}, NeedsTruth(params));
       Command command;
       if (step > 500) command.v_x_mps = 0.4;
@@ -51,10 +51,10 @@ TEST(Controller, StepNeverAllocates) {
         out = &controller.Step(z, command);
         allocations += guard.count();
       }
-      world.Step(actuation.Update(out->command, {z.q, z.qd}, world.truth().state.qd, 0.001));
+      plant.Step(actuation.Update(out->command, {z.q, z.qd}, plant.truth().state.qd, 0.001));
     }
     EXPECT_EQ(allocations, 0);
-    EXPECT_GT(world.truth().state.p_WB.x(), 0.3) << "it walked";
+    EXPECT_GT(plant.truth().state.p_WB.x(), 0.3) << "it walked";
   }
 }
 

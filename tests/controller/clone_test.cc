@@ -35,7 +35,7 @@ void ExpectClonesAgree(const LoopParams& params, const terrains::Heightfield& gr
   ClosedLoop original(params, robot, ground);
   original.Run(at);
   ClosedLoop clone = original, pushed = original;
-  pushed.world.SetTrunkWrench({40.0, -25.0, 0.0}, Vec3::Zero());
+  pushed.plant.SetTrunkWrench({40.0, -25.0, 0.0}, Vec3::Zero());
   for (int i = at; i < steps; ++i) {
     clone.Step();
     pushed.Step();
@@ -45,7 +45,7 @@ void ExpectClonesAgree(const LoopParams& params, const terrains::Heightfield& gr
   EXPECT_EQ(original.hash(), alone.hash()) << "cloned at " << at;
   EXPECT_NE(pushed.hash(), alone.hash());
   EXPECT_EQ(original.controller.counters(), alone.controller.counters());
-  EXPECT_EQ(clone.world.truth(), alone.world.truth());
+  EXPECT_EQ(clone.plant.truth(), alone.plant.truth());
 }
 
 /// Clones while the robot stands and at random steps while it walks.
@@ -180,10 +180,10 @@ TEST(Clone, RobotThatTumbles) {
     RobotState thrown = test::StandingState();
     thrown.R_WB = core::ExpSo3(Vec3(1.9, 0.3, 0.0));
     thrown.w_WB = {-3.0, 2.0, 1.0};
-    alone.world.Reset(thrown);
+    alone.plant.Reset(thrown);
     ClosedLoop original = alone;
     alone.Run(1500);
-    EXPECT_GT(alone.world.truth().trunk_force_N, 0.0) << "it lies";
+    EXPECT_GT(alone.plant.truth().trunk_force_N, 0.0) << "it lies";
     std::vector<ClosedLoop> clones;
     for (int step = 0; step < 1500; ++step) {
       if (step % 100 == 70) clones.push_back(original);

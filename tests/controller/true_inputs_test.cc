@@ -63,17 +63,17 @@ TEST(TrueInputs, StateIsTheTrueOneInTheEstimatesWorld) {
   ClosedLoop loop(WithErrors(), test::Go2(), ground);
   loop.Run(1500);
   RobotState believed = loop.control().estimate.state;
-  const RobotState truth_then = loop.world.truth().state;
+  const RobotState truth_then = loop.plant.truth().state;
   ASSERT_GT((believed.p_WB - truth_then.p_WB).norm(), 1e-3) << "the estimate has drifted";
   ClosedLoop given = loop;
   given.substitute.state = true;
-  const RobotState true_start = given.world.truth().state;
+  const RobotState true_start = given.plant.truth().state;
   given.Step();
   const RobotState start = given.control().estimate.state;
   EXPECT_LT((start.p_WB - believed.p_WB).norm(), 2e-3) << "no jump";
   EXPECT_NEAR(core::UnwrapNear(Yaw(start) - Yaw(believed), 0.0), 0.0, 2e-3);
   for (int i = 0; i < 300; ++i) {
-    const RobotState truth = given.world.truth().state;
+    const RobotState truth = given.plant.truth().state;
     given.Step();
     const RobotState& now = given.control().estimate.state;
     ASSERT_LT((now.R_WB.row(2) - truth.R_WB.row(2)).norm(), 1e-9) << "tilt, step " << i;
@@ -98,7 +98,7 @@ TEST(TrueInputs, ContactIsTheTrueOneForAllThatFollows) {
   given.substitute.contact = true;
   int differences = 0;
   for (int i = 0; i < 600; ++i) {
-    const LegArray<bool> truth = given.world.truth().contact;
+    const LegArray<bool> truth = given.plant.truth().contact;
     given.Step();
     const ContactEstimate& contact = given.control().contact;
     ASSERT_EQ(contact.contact, truth);
@@ -119,7 +119,7 @@ TEST(TrueInputs, ModelIsTheTrueOneWhileItIsGiven) {
   loop.substitute.trunk = true;
   loop.Step();
   EXPECT_NEAR(loop.control().model_mass_kg, nominal_kg + 3.0, 1e-9);
-  EXPECT_EQ(loop.controller.model().trunk, loop.world.truth().trunk);
+  EXPECT_EQ(loop.controller.model().trunk, loop.plant.truth().trunk);
   loop.substitute.trunk = false;
   loop.Step();
   EXPECT_EQ(loop.control().model_mass_kg, nominal_kg);
@@ -138,7 +138,7 @@ TEST(TrueInputs, KnownGroundIsPlannedOn) {
   for (int i = 0; i < 800; ++i) {
     given.Step();
     plain.Step();
-    const Vec3& p_WC = given.world.truth().p_WC;
+    const Vec3& p_WC = given.plant.truth().p_WC;
     worst_m = std::max(worst_m,
                        std::abs(given.control().ground_z_m - ground.HeightAt(p_WC.x(), p_WC.y())));
   }

@@ -9,10 +9,10 @@
 #include "core/demand.h"
 #include "core/robot/description.h"
 #include "sim/payload.h"
+#include "sim/plant/plant.h"
 #include "sim/sensors/faults.h"
 #include "sim/sensors/sensor_params.h"
 #include "sim/sliding_payload.h"
-#include "sim/world.h"
 #include "terrains/params.h"
 #include "tests/fuzz/fuzz.h"
 

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/world.h"
+#include "sim/plant/plant.h"
 #include "tests/support/robots.h"
 
 namespace scoria::sim {
@@ -59,14 +59,14 @@ TEST(GroundLaw, StandingFeetSinkAsTheLawSays) {
     terrains::Heightfield flat = test::FlatGround();
     const terrains::Heightfield ground(flat.nodes(), flat.resolution_m(), flat.heights_m(),
                                        {.stiffness_N_per_m3 = k_s});
-    World world(test::Go2(), ground, {}, kGravity);
+    Plant plant(test::Go2(), ground, {}, kGravity);
     const RobotState start = test::StandingState();
-    world.Reset(start);
-    for (int i = 0; i < 4000; ++i) world.Step(Hold(world.truth().state, start.q));
+    plant.Reset(start);
+    for (int i = 0; i < 4000; ++i) plant.Step(Hold(plant.truth().state, start.q));
     for (const Leg leg : kLegs) {
       const double want_N =
-          CalcSinkageForce(Uniform(k_s), kRadius_m, world.truth().penetration_m[leg]);
-      EXPECT_NEAR(world.truth().f_normal_N[leg], want_N, 0.01 * want_N) << k_s;
+          CalcSinkageForce(Uniform(k_s), kRadius_m, plant.truth().penetration_m[leg]);
+      EXPECT_NEAR(plant.truth().f_normal_N[leg], want_N, 0.01 * want_N) << k_s;
     }
   }
 }
@@ -83,20 +83,20 @@ TEST(GroundLaw, EveryStiffnessIsStableAtOneKilohertz) {
                                          {.stiffness_N_per_m3 = k_N_per_m / area});
       PhysicsParams params;
       params.ground = kind;
-      World world(test::Go2(), ground, params, kGravity);
+      Plant plant(test::Go2(), ground, params, kGravity);
       RobotState start = test::StandingState();
       const LegArray<Vec3> q = start.q;
       start.p_WB.z() += 0.05;
-      world.Reset(start);
+      plant.Reset(start);
       double most_J = 0.0;
       for (int i = 0; i < 6000; ++i) {
-        world.Step(Hold(world.truth().state, q));
-        const EnergyLedger& e = world.truth().energy;
+        plant.Step(Hold(plant.truth().state, q));
+        const EnergyLedger& e = plant.truth().energy;
         most_J = std::max(most_J, e.kinetic_J + e.potential_J - e.initial_J - e.work.motor_J);
       }
-      EXPECT_LT(world.truth().energy.kinetic_J, 1e-5) << k_N_per_m;
+      EXPECT_LT(plant.truth().energy.kinetic_J, 1e-5) << k_N_per_m;
       EXPECT_LT(most_J, 0.05) << k_N_per_m;
-      EXPECT_GT(world.truth().state.p_WB.z(), 0.2) << k_N_per_m;
+      EXPECT_GT(plant.truth().state.p_WB.z(), 0.2) << k_N_per_m;
     }
   }
 }
@@ -163,67 +163,67 @@ TEST(GroundLaw, ShearedGroundDoesNotThrowTheFootBack) {
   const terrains::Heightfield ground = FlatOf(3e6, 0.3);
   PhysicsParams params;
   params.ground = PlasticGround{};
-  World world(test::Go2(), ground, params, kGravity);
+  Plant plant(test::Go2(), ground, params, kGravity);
   RobotState s = test::StandingState();
   const LegArray<Vec3> q = s.q;
-  world.Reset(s);
-  for (int i = 0; i < 1500; ++i) world.Step(Hold(world.truth().state, q));
-  s = world.truth().state;
+  plant.Reset(s);
+  for (int i = 0; i < 1500; ++i) plant.Step(Hold(plant.truth().state, q));
+  s = plant.truth().state;
   s.v_WB.y() = 0.5;
-  world.Reset(s);
-  const double start_J = 0.5 * world.truth().mass_kg * 0.25;
+  plant.Reset(s);
+  const double start_J = 0.5 * plant.truth().mass_kg * 0.25;
   double least_J = start_J, rebound_J = 0.0;
   for (int i = 0; i < 2000; ++i) {
-    world.Step(Hold(world.truth().state, q));
-    const double along_J = 0.5 * world.truth().mass_kg * std::pow(world.truth().state.v_WB.y(), 2);
+    plant.Step(Hold(plant.truth().state, q));
+    const double along_J = 0.5 * plant.truth().mass_kg * std::pow(plant.truth().state.v_WB.y(), 2);
     least_J = std::min(least_J, along_J);
     rebound_J = std::max(rebound_J, along_J - least_J);
   }
   EXPECT_LT(rebound_J, 0.2 * start_J);
-  EXPECT_LT(std::abs(world.truth().state.v_WB.y()), 1e-3);
+  EXPECT_LT(std::abs(plant.truth().state.v_WB.y()), 1e-3);
 }
 
 // Feet sink deeper than their own diameter and still carry the robot.
 TEST(GroundLaw, VerySoftGroundStillCarries) {
   for (const auto& [k_s, drop_m] : {std::pair{4e5, 0.0}, {8.9e5, 0.1}, {1.5e6, 0.3}}) {
     const terrains::Heightfield ground = FlatOf(k_s);
-    World world(test::Go2(), ground, {}, kGravity);
+    Plant plant(test::Go2(), ground, {}, kGravity);
     RobotState s = test::StandingState();
     const LegArray<Vec3> q = s.q;
     s.p_WB.z() += drop_m;
-    world.Reset(s);
-    for (int i = 0; i < 4000; ++i) world.Step(Hold(world.truth().state, q));
+    plant.Reset(s);
+    for (int i = 0; i < 4000; ++i) plant.Step(Hold(plant.truth().state, q));
     double sum_N = 0.0;
-    for (const Leg leg : kLegs) sum_N += world.truth().f_F_W[leg].z();
-    EXPECT_NEAR(sum_N, world.truth().mass_kg * 9.81, 0.5) << k_s;
+    for (const Leg leg : kLegs) sum_N += plant.truth().f_F_W[leg].z();
+    EXPECT_NEAR(sum_N, plant.truth().mass_kg * 9.81, 0.5) << k_s;
   }
 }
 
 TEST(GroundLaw, GroundContinuesBeyondItsTile) {
   const terrains::Heightfield ground = test::FlatGround(0.8, 4.0);
-  World world(test::Go2(), ground, {}, kGravity);
+  Plant plant(test::Go2(), ground, {}, kGravity);
   RobotState s = test::StandingState();
   s.p_WB.x() = 10.0;
-  world.Reset(s);
-  for (int i = 0; i < 2000; ++i) world.Step(Hold(world.truth().state, s.q));
-  EXPECT_GT(world.truth().state.p_WB.z(), 0.25);
+  plant.Reset(s);
+  for (int i = 0; i < 2000; ++i) plant.Step(Hold(plant.truth().state, s.q));
+  EXPECT_GT(plant.truth().state.p_WB.z(), 0.25);
 }
 
 /// Largest change of one foot's normal force from step to step of a robot that slides with locked
 /// legs down tilted gravity, after it has settled.
 double LargestKick(const terrains::Heightfield& ground, double slope) {
-  World world(test::Go2(), ground, {}, 9.81 * Vec3(-std::sin(slope), 0.0, -std::cos(slope)));
+  Plant plant(test::Go2(), ground, {}, 9.81 * Vec3(-std::sin(slope), 0.0, -std::cos(slope)));
   const RobotState start = test::StandingState();
-  world.Reset(start);
+  plant.Reset(start);
   double before_N = 0.0, kick_N = 0.0;
   for (int i = 0; i < 2000; ++i) {
-    world.Step(Hold(world.truth().state, start.q));
-    const double now_N = world.truth().f_normal_N[Leg::kFL];
+    plant.Step(Hold(plant.truth().state, start.q));
+    const double now_N = plant.truth().f_normal_N[Leg::kFL];
     if (i > 800) kick_N = std::max(kick_N, std::abs(now_N - before_N));
     before_N = now_N;
   }
-  EXPECT_LT(world.truth().state.p_WB.x(), -0.5) << "it does slide";
-  EXPECT_LT(world.truth().state.p_WB.norm(), 9.0) << "and stays on the tile";
+  EXPECT_LT(plant.truth().state.p_WB.x(), -0.5) << "it does slide";
+  EXPECT_LT(plant.truth().state.p_WB.norm(), 9.0) << "and stays on the tile";
   return kick_N;
 }
 

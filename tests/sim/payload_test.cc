@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/math/so3.h"
-#include "sim/world.h"
+#include "sim/plant/plant.h"
 #include "tests/support/robots.h"
 
 namespace scoria::sim {
@@ -117,22 +117,22 @@ TEST(Payload, InertiaIsTheBoxsOrAsGivenAndTurnsWithIt) {
 
 TEST(Payload, MomentumIsConservedWhereTheBodyWasAtRest) {
   const terrains::Heightfield ground = test::FlatGround();
-  World world(test::Go2(), ground, {}, Vec3::Zero());
+  Plant plant(test::Go2(), ground, {}, Vec3::Zero());
   core::Rng rng(31, 0, core::Stream::kSensor);
   for (int trial = 0; trial < 20; ++trial) {
     RobotState s = test::RandomState(rng);
     s.p_WB.z() = 5.0;
-    world.SetTrunkParameters(BareTrunk(), AttachVelocity::kMatched);
-    world.Reset(s);
-    world.Step(ZeroPerLeg());
-    const Truth before = world.truth();
+    plant.SetTrunkParameters(BareTrunk(), AttachVelocity::kMatched);
+    plant.Reset(s);
+    plant.Step(ZeroPerLeg());
+    const Truth before = plant.truth();
     PayloadEvent add = AddAt(0.0, Plate());
     add.attach_velocity = AttachVelocity::kRest;
     PayloadRack rack(BareTrunk(), {add});
     const std::vector<TrunkChange> changes = rack.Update(At(0.1, 0.0));
     ASSERT_EQ(changes.size(), 1u);
-    world.SetTrunkParameters(changes[0].trunk, changes[0].attach_velocity);
-    const Truth& after = world.truth();
+    plant.SetTrunkParameters(changes[0].trunk, changes[0].attach_velocity);
+    const Truth& after = plant.truth();
     const Vec6 P = RobotMomentum(before.trunk, before.state),
                Q = RobotMomentum(after.trunk, after.state);
     EXPECT_LT((Q - P).head<3>().norm(), 1e-9 * P.head<3>().norm()) << trial;
@@ -144,7 +144,7 @@ TEST(Payload, MomentumIsConservedWhereTheBodyWasAtRest) {
 
 TEST(Payload, MatchedBodyBringsAndTakesItsOwnMomentum) {
   const terrains::Heightfield ground = test::FlatGround();
-  World world(test::Go2(), ground, {}, Vec3::Zero());
+  Plant plant(test::Go2(), ground, {}, Vec3::Zero());
   core::Rng rng(32, 0, core::Stream::kSensor);
   const SpatialInertia plate = ToInertia(Plate());
   for (int trial = 0; trial < 20; ++trial) {
@@ -152,34 +152,34 @@ TEST(Payload, MatchedBodyBringsAndTakesItsOwnMomentum) {
                      {AddAt(0.0, Plate()), EventAt(1.0, PayloadAction::kRemove, "plate")});
     RobotState s = test::RandomState(rng);
     s.p_WB.z() = 5.0;
-    world.Reset(s);
+    plant.Reset(s);
     const Vec6 bare = RobotMomentum(BareTrunk(), s);
-    world.SetTrunkParameters(rack.Update(At(0.1, 0.0)).at(0).trunk, AttachVelocity::kMatched);
-    EXPECT_EQ(world.truth().state, s);
-    const Vec6 loaded = RobotMomentum(world.truth().trunk, s), own = Momentum(plate, s);
+    plant.SetTrunkParameters(rack.Update(At(0.1, 0.0)).at(0).trunk, AttachVelocity::kMatched);
+    EXPECT_EQ(plant.truth().state, s);
+    const Vec6 loaded = RobotMomentum(plant.truth().trunk, s), own = Momentum(plate, s);
     EXPECT_LT((loaded - bare - own).head<3>().norm(), 1e-9 * loaded.head<3>().norm()) << trial;
     EXPECT_LT((loaded - bare - own).tail<3>().norm(), 1e-9 * loaded.tail<3>().norm()) << trial;
-    world.SetTrunkParameters(rack.Update(At(1.1, 0.0)).at(0).trunk, AttachVelocity::kMatched);
-    EXPECT_EQ(RobotMomentum(world.truth().trunk, world.truth().state), bare);
+    plant.SetTrunkParameters(rack.Update(At(1.1, 0.0)).at(0).trunk, AttachVelocity::kMatched);
+    EXPECT_EQ(RobotMomentum(plant.truth().trunk, plant.truth().state), bare);
   }
 }
 
 TEST(Payload, ImpactShowsInTheNextStepsAcceleration) {
   const terrains::Heightfield ground = test::FlatGround();
   const PhysicsParams params;
-  World world(test::Go2(), ground, params, Vec3::Zero());
+  Plant plant(test::Go2(), ground, params, Vec3::Zero());
   RobotState s = test::StandingState();
   s.p_WB.z() = 5.0;
   s.v_WB = {1.0, 0.0, 0.0};
-  world.Reset(s);
-  world.SetTrunkParameters(AddBodies(BareTrunk(), std::vector<SpatialInertia>{ToInertia(Plate())}),
+  plant.Reset(s);
+  plant.SetTrunkParameters(AddBodies(BareTrunk(), std::vector<SpatialInertia>{ToInertia(Plate())}),
                            AttachVelocity::kRest);
-  world.Step(ZeroPerLeg());
-  const Truth& t = world.truth();
+  plant.Step(ZeroPerLeg());
+  const Truth& t = plant.truth();
   EXPECT_LT(t.state.v_WB.x(), 0.9);
   EXPECT_LT((t.a_WB * params.step_s - (t.state.v_WB - s.v_WB)).norm(), 1e-12);
-  world.Step(ZeroPerLeg());
-  EXPECT_GT(world.truth().a_WB.x() * params.step_s, -0.01);
+  plant.Step(ZeroPerLeg());
+  EXPECT_GT(plant.truth().a_WB.x() * params.step_s, -0.01);
 }
 
 TEST(PayloadRack, AddedThenRemovedRestoresTheTrunkBitForBit) {
@@ -192,15 +192,15 @@ TEST(PayloadRack, AddedThenRemovedRestoresTheTrunkBitForBit) {
   PayloadRack rack(BareTrunk(), {AddAt(1.0, Plate()), slow, shed, gone,
                                  EventAt(7.0, PayloadAction::kRemove, "kit")});
   const terrains::Heightfield ground = test::FlatGround();
-  World world(test::Go2(), ground, {}, kGravity);
-  const SpatialInertia before = world.truth().trunk;
+  Plant plant(test::Go2(), ground, {}, kGravity);
+  const SpatialInertia before = plant.truth().trunk;
   int changes = 0;
   for (int i = 0; i < 8000; ++i) {
     for (const TrunkChange& change : rack.Update(At(0.001 * i, 0.0))) {
-      world.SetTrunkParameters(change.trunk, change.attach_velocity);
+      plant.SetTrunkParameters(change.trunk, change.attach_velocity);
       ++changes;
     }
-    const SpatialInertia& now = world.truth().trunk;
+    const SpatialInertia& now = plant.truth().trunk;
     if (i == 1500) {
       EXPECT_EQ(now, AddBodies(BareTrunk(), std::vector<SpatialInertia>{ToInertia(Plate())}));
     }
@@ -210,7 +210,7 @@ TEST(PayloadRack, AddedThenRemovedRestoresTheTrunkBitForBit) {
   }
   EXPECT_GT(changes, 1000);
   EXPECT_EQ(before, BareTrunk());
-  EXPECT_EQ(world.truth().trunk, before);
+  EXPECT_EQ(plant.truth().trunk, before);
 }
 
 TEST(PayloadRack, AllOffIsTheBareTrunkForGood) {
@@ -394,22 +394,22 @@ TEST(PayloadLibrary, FilesHaveTheMassTheirNameSays) {
   }
 }
 
-TEST(World, StandsUnderAPlateThatIsPutOnItsBack) {
+TEST(Plant, StandsUnderAPlateThatIsPutOnItsBack) {
   const terrains::Heightfield ground = test::FlatGround();
-  World world(test::Go2(), ground, {}, kGravity);
+  Plant plant(test::Go2(), ground, {}, kGravity);
   const RobotState start = test::StandingState();
-  world.Reset(start);
+  plant.Reset(start);
   PayloadEvent add = AddAt(1.0, Plate());
   add.attach_velocity = AttachVelocity::kRest;
   PayloadRack rack(BareTrunk(), {add});
   double worst_J = 0.0;
   for (int i = 0; i < 4000; ++i) {
     for (const TrunkChange& change : rack.Update(At(0.001 * i, 0.0)))
-      world.SetTrunkParameters(change.trunk, change.attach_velocity);
-    world.Step(Hold(world.truth().state, start.q));
-    worst_J = std::max(worst_J, std::abs(world.truth().energy.Error_J()));
+      plant.SetTrunkParameters(change.trunk, change.attach_velocity);
+    plant.Step(Hold(plant.truth().state, start.q));
+    worst_J = std::max(worst_J, std::abs(plant.truth().energy.Error_J()));
   }
-  const Truth& t = world.truth();
+  const Truth& t = plant.truth();
   Vec3 sum = Vec3::Zero();
   for (const Leg leg : kLegs) sum += t.f_F_W[leg];
   EXPECT_DOUBLE_EQ(t.mass_kg, test::Go2().total_mass_kg() + 5.0);
@@ -419,14 +419,14 @@ TEST(World, StandsUnderAPlateThatIsPutOnItsBack) {
   EXPECT_LT(worst_J, 1e-4);
 }
 
-TEST(World, ResetKeepsThePayload) {
+TEST(Plant, ResetKeepsThePayload) {
   const terrains::Heightfield ground = test::FlatGround();
-  World world(test::Go2(), ground, {}, kGravity);
+  Plant plant(test::Go2(), ground, {}, kGravity);
   const std::vector<SpatialInertia> plate = {ToInertia(Plate())};
-  world.SetTrunkParameters(AddBodies(BareTrunk(), plate), AttachVelocity::kMatched);
-  world.Reset(test::StandingState());
-  EXPECT_DOUBLE_EQ(world.truth().mass_kg, test::Go2().total_mass_kg() + 5.0);
-  EXPECT_EQ(world.truth().energy.Error_J(), 0.0);
+  plant.SetTrunkParameters(AddBodies(BareTrunk(), plate), AttachVelocity::kMatched);
+  plant.Reset(test::StandingState());
+  EXPECT_DOUBLE_EQ(plant.truth().mass_kg, test::Go2().total_mass_kg() + 5.0);
+  EXPECT_EQ(plant.truth().energy.Error_J(), 0.0);
 }
 
 SlidingPayloadParams Block() { return {"block", 2.0, {0.0, 0.0, 0.1}, Vec3::UnitY(), 300.0, 4.0}; }
@@ -434,16 +434,16 @@ SlidingPayloadParams Block() { return {"block", 2.0, {0.0, 0.0, 0.1}, Vec3::Unit
 TEST(SlidingPayload, ComesToRestOnAStandingRobotAndIsCarried) {
   const terrains::Heightfield ground = test::FlatGround();
   const double tilt = 0.1;  // gravity to the left
-  World world(test::Go2(), ground, {}, 9.81 * Vec3(0.0, std::sin(tilt), -std::cos(tilt)), Block());
+  Plant plant(test::Go2(), ground, {}, 9.81 * Vec3(0.0, std::sin(tilt), -std::cos(tilt)), Block());
   const RobotState start = test::StandingState();
-  world.Reset(start);
+  plant.Reset(start);
   double worst_J = 0.0, widest_m = 0.0;
   for (int i = 0; i < 12000; ++i) {
-    world.Step(Hold(world.truth().state, start.q));
-    worst_J = std::max(worst_J, std::abs(world.truth().energy.Error_J()));
-    widest_m = std::max(widest_m, world.truth().slide_m);
+    plant.Step(Hold(plant.truth().state, start.q));
+    worst_J = std::max(worst_J, std::abs(plant.truth().energy.Error_J()));
+    widest_m = std::max(widest_m, plant.truth().slide_m);
   }
-  const Truth& t = world.truth();
+  const Truth& t = plant.truth();
   const double roll = core::RpyFromRotation(t.state.R_WB).x();
   const double pull_N = 2.0 * 9.81 * std::sin(tilt - roll);
   EXPECT_NEAR(t.slide_m, pull_N / 300.0, 1e-5);
@@ -457,14 +457,14 @@ TEST(SlidingPayload, ComesToRestOnAStandingRobotAndIsCarried) {
 
 TEST(SlidingPayload, MomentumIsKeptInFlightAndInAnImpact) {
   const terrains::Heightfield ground = test::FlatGround();
-  World world(test::Go2(), ground, {}, Vec3::Zero(), Block());
+  Plant plant(test::Go2(), ground, {}, Vec3::Zero(), Block());
   RobotState s = test::StandingState();
   s.p_WB.z() = 5.0;
   s.v_WB = {0.5, 1.0, 0.2};
   s.w_WB = {0.5, -0.4, 0.8};
-  world.Reset(s);
+  plant.Reset(s);
   const auto momentum = [&] {
-    const Truth& t = world.truth();
+    const Truth& t = plant.truth();
     const Vec3 u_W = t.state.R_WB * Vec3::UnitY();
     SpatialInertia block{2.0, Vec3(0.0, t.slide_m, 0.1)};
     Vec6 own;
@@ -473,48 +473,48 @@ TEST(SlidingPayload, MomentumIsKeptInFlightAndInAnImpact) {
     return Vec6(RobotMomentum(t.trunk, t.state) + Momentum(block, t.state) + own);
   };
   const Vec6 start = momentum();
-  for (int i = 0; i < 500; ++i) world.Step(Hold(world.truth().state, s.q));
+  for (int i = 0; i < 500; ++i) plant.Step(Hold(plant.truth().state, s.q));
   const Vec6 flown = momentum();
   // First order in the step, as without it.
   EXPECT_LT((flown - start).head<3>().norm(), 1e-3 * start.head<3>().norm());
   EXPECT_LT((flown - start).tail<3>().norm(), 1e-3 * start.tail<3>().norm());
-  EXPECT_LT(std::abs(world.truth().energy.Error_J()), 0.002 * world.truth().energy.initial_J);
-  EXPECT_GT(std::abs(world.truth().slide_mps), 1e-4);
-  const double rate_mps = world.truth().slide_mps;
-  world.SetTrunkParameters(AddBodies(BareTrunk(), std::vector<SpatialInertia>{ToInertia(Plate())}),
+  EXPECT_LT(std::abs(plant.truth().energy.Error_J()), 0.002 * plant.truth().energy.initial_J);
+  EXPECT_GT(std::abs(plant.truth().slide_mps), 1e-4);
+  const double rate_mps = plant.truth().slide_mps;
+  plant.SetTrunkParameters(AddBodies(BareTrunk(), std::vector<SpatialInertia>{ToInertia(Plate())}),
                            AttachVelocity::kRest);
   const Vec6 hit = momentum();
   EXPECT_LT((hit - flown).head<3>().norm(), 1e-9 * flown.head<3>().norm());
   EXPECT_LT((hit - flown).tail<3>().norm(), 1e-9 * flown.tail<3>().norm());
-  EXPECT_GT(std::abs(world.truth().slide_mps - rate_mps), 0.05) << "it shoots forth";
+  EXPECT_GT(std::abs(plant.truth().slide_mps - rate_mps), 0.05) << "it shoots forth";
 }
 
 // The robot flies on as one that never had it, from the state in which it lost it.
 TEST(SlidingPayload, TakenOffLeavesTheRobotItsVelocity) {
   const terrains::Heightfield ground = test::FlatGround();
-  World world(test::Go2(), ground, {}, kGravity, Block()), bare(test::Go2(), ground, {}, kGravity);
+  Plant plant(test::Go2(), ground, {}, kGravity, Block()), bare(test::Go2(), ground, {}, kGravity);
   RobotState s = test::StandingState();
   s.p_WB.z() = 5.0;
   s.v_WB = {0.5, 1.0, 0.2};
   s.w_WB = {0.5, -0.4, 0.8};
-  world.Reset(s);
-  for (int i = 0; i < 200; ++i) world.Step(Hold(world.truth().state, s.q));
-  const Truth before = world.truth();
+  plant.Reset(s);
+  for (int i = 0; i < 200; ++i) plant.Step(Hold(plant.truth().state, s.q));
+  const Truth before = plant.truth();
   ASSERT_NE(before.slide_mps, 0.0);
-  world.RemoveSlidingPayload();
-  EXPECT_EQ(world.truth().state, before.state);
-  EXPECT_DOUBLE_EQ(world.truth().mass_kg, test::Go2().total_mass_kg());
-  EXPECT_EQ(world.truth().slide_m, 0.0);
-  EXPECT_EQ(world.truth().slide_mps, 0.0);
-  EXPECT_NEAR(world.truth().energy.Error_J(), before.energy.Error_J(), 1e-9);
+  plant.RemoveSlidingPayload();
+  EXPECT_EQ(plant.truth().state, before.state);
+  EXPECT_DOUBLE_EQ(plant.truth().mass_kg, test::Go2().total_mass_kg());
+  EXPECT_EQ(plant.truth().slide_m, 0.0);
+  EXPECT_EQ(plant.truth().slide_mps, 0.0);
+  EXPECT_NEAR(plant.truth().energy.Error_J(), before.energy.Error_J(), 1e-9);
   bare.Reset(before.state);
   for (int i = 0; i < 100; ++i) {
-    for (World* w : {&world, &bare}) w->Step(Hold(w->truth().state, s.q));
+    for (Plant* w : {&plant, &bare}) w->Step(Hold(w->truth().state, s.q));
   }
-  EXPECT_LT((world.truth().state.p_WB - bare.truth().state.p_WB).norm(), 1e-6);
-  EXPECT_LT((world.truth().state.w_WB - bare.truth().state.w_WB).norm(), 1e-6);
-  world.RemoveSlidingPayload();
-  EXPECT_EQ(world.truth().mass_kg, bare.truth().mass_kg);
+  EXPECT_LT((plant.truth().state.p_WB - bare.truth().state.p_WB).norm(), 1e-6);
+  EXPECT_LT((plant.truth().state.w_WB - bare.truth().state.w_WB).norm(), 1e-6);
+  plant.RemoveSlidingPayload();
+  EXPECT_EQ(plant.truth().mass_kg, bare.truth().mass_kg);
 }
 
 TEST(SlidingPayload, MistakesAreNamed) {

@@ -21,8 +21,8 @@ controller::Start StartIn(controller::Start::Pose pose) {
 
 ClosedLoop::ClosedLoop(const LoopParams& params, const core::RobotDescription& robot,
                        const terrains::Heightfield& ground)
-    : world(robot, ground, params.physics, kGravity_W, params.sliding),
-      payloads(world.truth().trunk, params.payloads),
+    : plant(robot, ground, params.physics, kGravity_W, params.sliding),
+      payloads(plant.truth().trunk, params.payloads),
       actuation(robot),
       sensors(robot, params.sensors, params.sensor_faults, kGravity_W, kStep_s, kSeed),
       controller(params.controller, robot, kGravity_mps2, kStep_s, StartIn(params.pose)),
@@ -35,27 +35,27 @@ ClosedLoop::ClosedLoop(const LoopParams& params, const core::RobotDescription& r
     state.p_WB.z() = 0.1;
   }
   state.p_WB.z() += ground.HeightAt(0.0, 0.0);
-  world.Reset(state);
+  plant.Reset(state);
 }
 
 void ClosedLoop::Step() {
   const double time_s = step_ * kStep_s;
   const core::EventClock now{time_s, 0.0, time_s};
-  const SensorFrame z = sensors.Read(world.truth(), actuation.motor_tau_Nm(), step_, now, true);
+  const SensorFrame z = sensors.Read(plant.truth(), actuation.motor_tau_Nm(), step_, now, true);
   constexpr double kStands_s = 0.5;
   const Command command = time_s < kStands_s ? Command{} : walk;
   controller::SolverFaults faults;
   if (fault_rng_.NextUniform() < params_.fault_share) faults.mpc = controller::SolverFault::kLate;
   if (fault_rng_.NextUniform() < params_.fault_share) faults.wbc = controller::SolverFault::kFail;
-  const sim::TrueGround true_ground(ground_, world.truth().state);
+  const sim::TrueGround true_ground(ground_, plant.truth().state);
   controller::TrueInputs true_inputs = CollectTrueInputs(z);
   if (substitute.ground) true_inputs.ground = &true_ground;
   control_ = controller.Step(z, command, faults, true_inputs);
   for (const sim::TrunkChange& change : payloads.Update(now))
-    world.SetTrunkParameters(change.trunk, change.attach_velocity);
-  const LegArray<Vec3> qd_before = world.truth().state.qd;
-  world.Step(actuation.Update(control_.command, {z.q, z.qd}, qd_before, kStep_s));
-  actuation.Meter(qd_before, world.truth().state.qd, kStep_s);
+    plant.SetTrunkParameters(change.trunk, change.attach_velocity);
+  const LegArray<Vec3> qd_before = plant.truth().state.qd;
+  plant.Step(actuation.Update(control_.command, {z.q, z.qd}, qd_before, kStep_s));
+  actuation.Meter(qd_before, plant.truth().state.qd, kStep_s);
   Add(z);
   ++step_;
 }
@@ -64,7 +64,7 @@ controller::TrueInputs ClosedLoop::CollectTrueInputs(const SensorFrame& z) const
   controller::TrueInputs inputs;
   if (substitute.state) inputs.state = z.truth->state;
   if (substitute.contact) inputs.contact = z.truth->contact;
-  if (substitute.trunk) inputs.trunk = core::ModelParameters{world.truth().trunk};
+  if (substitute.trunk) inputs.trunk = core::ModelParameters{plant.truth().trunk};
   return inputs;
 }
 
@@ -84,7 +84,7 @@ void ClosedLoop::Add(const SensorFrame& z) {
     add_legs(s.q);
     add_legs(s.qd);
   };
-  const sim::Truth& truth = world.truth();
+  const sim::Truth& truth = plant.truth();
   add_state(truth.state);
   add_legs(truth.f_F_W);
   add_legs(z.q);

@@ -10,8 +10,8 @@
 #include "core/rng.h"
 #include "sim/actuation.h"
 #include "sim/payload.h"
+#include "sim/plant/plant.h"
 #include "sim/sensors/sensors.h"
-#include "sim/world.h"
 
 namespace scoria::test {
 
@@ -26,7 +26,7 @@ struct LoopParams {
   double fault_share = 0.0;  // of ticks at which either solver fails
 };
 
-/// World, payloads, sensors, controller and motors step by step, as an episode has them: stands for
+/// Plant, payloads, sensors, controller and motors step by step, as an episode has them: stands for
 /// 0.5 s, then walks forwards in a wide turn. A copy is a clone of every part.
 class ClosedLoop {
  public:
@@ -48,7 +48,7 @@ class ClosedLoop {
   };
   Substitute substitute;
 
-  sim::World world;
+  sim::Plant plant;
   sim::PayloadRack payloads;
   sim::Actuation actuation;
   sim::Sensors sensors;

@@ -60,6 +60,9 @@ std::vector<Case> Cases() {
       {"supervisor",
        {seconds,
         "solver_faults={share: 0.02, outages: [{at_s: 1, duration_s: 1.5, solver: mpc}]}"}},
+      {"bullet",
+       {seconds, "physics.engine.type=bullet",
+        "payloads=[{at_s: 1, action: add, duration_s: 0.5, body: " + kPlate + "}]"}},
       {"plastic_ground", {seconds, "physics.ground={type: plastic}"}},
       {"sliding_payload",
        {seconds, "sliding_payload={name: box, mass_kg: 2, p_BP_m: [0, 0, 0.1]}"}}};

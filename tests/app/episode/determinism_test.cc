@@ -153,6 +153,20 @@ TEST(Verify, ProvesALogAndNamesTheFirstDifference) {
       << bad.difference;
 }
 
+TEST(Verify, RerunsInTheEngineOfTheLog) {
+  const test::TemporaryFolder folder;
+  Scenario scenario = ShortScenario();
+  scenario.physics.engine = sim::BulletDynamics{};
+  (void)RunInto(scenario, folder.path());
+  const fs::path log = folder.path() / "log.mcap";
+  const VerifyResult r = VerifyLog(log);
+  EXPECT_TRUE(r.identical) << r.difference;
+  EXPECT_GT(r.messages, 1000u);
+  EXPECT_EQ(logs::OpenLog(log)->contents().metadata.at(kScenarioMetadata).at("engine"), "bullet");
+  std::ifstream result(folder.path() / "result.json");
+  EXPECT_EQ(nlohmann::json::parse(result).at("engine"), "bullet");
+}
+
 TEST(Verify, TruncatedLogIsComparedAsFarAsItGoes) {
   const test::TemporaryFolder folder;
   (void)RunInto(ShortScenario(), folder.path());

@@ -185,6 +185,21 @@ TEST(ControllerChanges, AreCheckedWhenTheScenarioIsRead) {
             "controller_changes[1].at_s: 1 is before 2, that of the change above");
 }
 
+TEST(Scenario, WhatTheEngineCannotExpressIsRefused) {
+  const std::string bullet = "physics.engine.type=bullet";
+  constexpr const char* kWhy = "engine bullet cannot express it; physics.engine.type: scoria can";
+  EXPECT_TRUE(ErrorOf({bullet, "physics.ground.type=plastic"})
+                  .ends_with(std::string(": physics.ground.type: plastic: ") + kWhy));
+  EXPECT_TRUE(ErrorOf({bullet, "sliding_payload={name: block, mass_kg: 2}"})
+                  .ends_with(std::string(": sliding_payload: ") + kWhy));
+  EXPECT_EQ(ErrorOf({bullet}), "no error");
+  EXPECT_EQ(ErrorOf({"physics.ground.type=plastic", "sliding_payload={name: block, mass_kg: 2}"}),
+            "no error");
+  EXPECT_TRUE(ErrorOf({"physics.engine.type=bulet"})
+                  .ends_with("physics.engine.type: unknown \"bulet\"; choices: bullet, scoria "
+                             "(did you mean \"bullet\"?)"));
+}
+
 TEST(Scenario, RatesThatDoNotDivideAreRefused) {
   const auto error = [](const std::string& set) -> std::string {
     try {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/world.h"
+#include "sim/plant/plant.h"
 #include "terrains/rocks.h"
 #include "tests/support/robots.h"
 
@@ -41,16 +41,16 @@ TEST(GroundContact, WallBesideAFootIsSeenInTime) {
   for (const auto& [diameter_m, burial, scale] :
        {std::tuple{0.4, 0.2, 1.0}, {0.4, 0.5, 1.0}, {0.4, 0.35, 1.5}, {0.8, 0.2, 1.5}}) {
     const terrains::Heightfield ground = Rock(diameter_m, burial, scale);
-    World world(robot, ground, {}, Vec3::Zero());
+    Plant plant(robot, ground, {}, Vec3::Zero());
     RobotState s = test::StandingState();
     const Vec3 p_BF = core::CalcLegKinematics(robot.legs[Leg::kFL], s.q[Leg::kFL]).p_BF;
     double first_m = 1e9;
     constexpr double kTravel_m = 1.5e-3;
     for (double x = -0.5; x < 0.0 && first_m > 1e8; x += kTravel_m) {
       s.p_WB = Vec3(x, 0.0, radius_m + 3e-3) - p_BF;
-      world.Reset(s);
-      world.Step(ZeroPerLeg());
-      const double depth_m = world.truth().penetration_m[Leg::kFL];
+      plant.Reset(s);
+      plant.Step(ZeroPerLeg());
+      const double depth_m = plant.truth().penetration_m[Leg::kFL];
       const double truth_m = radius_m - TrueDistance(ground, Vec3(x, 0.0, radius_m + 3e-3));
       if (truth_m > 1e-4) {
         first_m = depth_m;

@@ -6,45 +6,9 @@
 #include <vector>
 
 #include "core/robot/whole_body.h"
+#include "sim/plant/engine.h"
 
 namespace scoria::sim {
-
-/// A point at which the ground may push on a body during one step. Along the normal the ground is
-/// a spring and a damper that can only push; along the surface it is Coulomb friction, behind a
-/// shear spring where the ground yields before it slips.
-struct ContactPoint {
-  int body = 0;  // as core::BodyIndex, 0 the trunk
-  bool is_foot = false;
-  Vec3 p_BP_W = Vec3::Zero();  // from B's origin
-  Vec3 n_W = Vec3::UnitZ();    // out of the ground
-  double gap_m = 0.0;          // < 0 inside the ground
-  double friction = 0.0;
-  double stiffness_N_per_m = 0.0;
-  double damping_Ns_per_m = 0.0;
-  double rest_m = 0.0;                   // penetration at which the spring is slack
-  double shear_stiffness_N_per_m = 0.0;  // 0: rigid up to the friction limit
-  Vec3 shear_W = Vec3::Zero();           // displacement of the shear spring, m
-  Vec3 impulse_W = Vec3::Zero();         // N s on the robot; a guess before, the solution after
-  Vec3 v_W = Vec3::Zero();               // of the point after the step
-};
-
-struct SolverParams {
-  int max_iterations = 100;
-  double residual = 1e-14;  // of squared velocity, m^2/s^2
-};
-
-/// Work done on the robot, J: impulse times the mean of the velocities before and after.
-struct Work {
-  double motor_J = 0.0, joint_J = 0.0, contact_J = 0.0, external_J = 0.0;
-  Work& operator+=(const Work& w) noexcept {
-    motor_J += w.motor_J;
-    joint_J += w.joint_J;
-    contact_J += w.contact_J;
-    external_J += w.external_J;
-    return *this;
-  }
-  bool operator==(const Work&) const = default;
-};
 
 /// Velocity of a quadruped after one semi-implicit Euler step: projected Gauss-Seidel on the
 /// impulses of contacts, joint friction and joint limits. Rotor inertia A and viscous joint damping
@@ -58,20 +22,17 @@ class StepSolver {
   /// `robot` is borrowed.
   StepSolver(const core::RobotDescription& robot, const SolverParams& params);
 
-  /// @param wb          H + A, h and kinematics at the start of the step.
-  /// @param tau_Nm      motor torques.
-  /// @param wrench_B_W  external force and moment about B's origin on the trunk.
   /// @param contacts    impulses are returned in place.
   /// @returns the velocities [v_WB; w_WB; qd] after the step.
-  [[nodiscard]] Vec18 Solve(const core::WholeBody& wb, const LegArray<Vec3>& tau_Nm,
-                            const Vec6& wrench_B_W, double dt_s, std::span<ContactPoint> contacts);
+  [[nodiscard]] Vec18 Solve(const StepInput& in, std::span<ContactPoint> contacts);
 
   /// Forgets the last step, from whose impulses the next one starts.
   void Reset() noexcept { friction_guess_.fill(0.0); }
 
   /// Of the last step.
-  [[nodiscard]] const Work& work() const noexcept { return work_; }
   [[nodiscard]] int iterations() const noexcept { return iterations_; }
+  /// Of friction and limits of the joints in the last step, N m s.
+  [[nodiscard]] LegArray<Vec3> JointImpulses() const noexcept;
 
  private:
   /// A vector of generalised velocities or impulses in the coordinates of L, padded to whole SIMD
@@ -97,6 +58,7 @@ class StepSolver {
   /// A joint's friction or limit.
   struct JointRow {
     Row row;
+    int joint = 0;  // of row.leg
     double low_Ns = 0.0, high_Ns = 0.0;
   };
 
@@ -114,8 +76,6 @@ class StepSolver {
   void Iterate();
   [[nodiscard]] double SolveContact(ContactRows& c) noexcept;
   [[nodiscard]] double SolveJoint(JointRow& j) noexcept;
-  void SumWork(const Vec18& v_before, const Vec18& v_after, const LegArray<Vec3>& tau_Nm,
-               const Vec6& wrench_B_W, double dt_s, const Whitened& before);
 
   const core::RobotDescription& robot_;
   SolverParams params_;
@@ -126,7 +86,6 @@ class StepSolver {
   std::vector<ContactRows> contacts_;
   std::vector<JointRow> joints_;                     // friction of all joints, then limits
   std::array<double, kNumJoints> friction_guess_{};  // impulses of the last step
-  Work work_;
   int iterations_ = 0;
 };
 

@@ -3,17 +3,38 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <variant>
 
 #include "core/robot/description.h"
 #include "core/robot/state.h"
 #include "core/robot/whole_body.h"
 #include "sim/ground_law.h"
 #include "sim/payload.h"
+#include "sim/plant/truth.h"
 #include "sim/sliding_payload.h"
-#include "sim/step_solver.h"
 #include "terrains/heightfield.h"
 
 namespace scoria::sim {
+
+/// scoria's own dynamics: StepSolver on the whole-body model.
+struct ScoriaDynamics {
+  static constexpr const char* kType = "scoria";
+  template <class Archive>
+  void Serialize(Archive&) {}
+  bool operator==(const ScoriaDynamics&) const = default;
+};
+
+/// Bullet's dynamics: btMultiBody and its constraint solver. Knows neither plastic ground nor a
+/// sliding payload.
+struct BulletDynamics {
+  static constexpr const char* kType = "bullet";
+  template <class Archive>
+  void Serialize(Archive&) {}
+  bool operator==(const BulletDynamics&) const = default;
+};
+
+using EngineParams = std::variant<ScoriaDynamics, BulletDynamics>;
 
 /// Numbers of the physics engine. Time itself is the runner's: one Step is `step_s`.
 struct PhysicsParams {
@@ -21,6 +42,7 @@ struct PhysicsParams {
   int max_solver_iterations = 100;
   double solver_residual = 1e-14;  // of squared velocity
   GroundParams ground = ElasticGround{};
+  EngineParams engine = ScoriaDynamics{};
   template <class Archive>
   void Serialize(Archive& a) {
     a.Field("step_s", step_s, {.min = 1e-4, .max = 2e-3});
@@ -28,55 +50,31 @@ struct PhysicsParams {
     a.Field("solver_residual", solver_residual,
             {.min = 0.0, .max = 1e-6, .doc = "(m/s)^2 at which the contact solver stops"});
     a.Field("ground", ground, {.doc = "what the ground remembers of a foot"});
+    a.Field("engine", engine,
+            {.doc = "what moves the robot: scoria's step solver, or Bullet's btMultiBody"});
   }
 };
 
-/// Where the robot's mechanical energy came from and went, J since Reset. Whatever the sum of works
-/// does not explain of the change of energy is the integrator's error. What payloads bring and take
-/// is external work; the damper of a sliding one is a joint.
-struct EnergyLedger {
-  Work work;
-  double kinetic_J = 0.0, potential_J = 0.0;  // now; rotors included, potential from z = 0
-  double initial_J = 0.0;                     // kinetic and potential at Reset
-  [[nodiscard]] double Error_J() const noexcept {
-    return kinetic_J + potential_J - initial_J -
-           (work.motor_J + work.joint_J + work.contact_J + work.external_J);
-  }
-  bool operator==(const EnergyLedger&) const = default;
-};
+[[nodiscard]] std::string EngineName(const EngineParams& engine);
 
-/// The true state of the robot and of its contacts after a step. Forces act on the robot.
-struct Truth {
-  RobotState state;
-  Vec3 a_WB = Vec3::Zero();               // m/s^2, mean over the last step
-  Vec3 p_WC = Vec3::Zero();               // centre of mass, payloads included
-  double mass_kg = 0.0;                   // likewise
-  core::SpatialInertia trunk;             // with all that is fixed to it
-  double slide_m = 0.0, slide_mps = 0.0;  // of a sliding payload
-  LegArray<Vec3> p_WF = ZeroPerLeg();     // foot sphere centres
-  LegArray<Vec3> f_F_W = ZeroPerLeg();    // N, ground on foot
-  LegArray<double> f_normal_N;            // its share along the ground's normal
-  LegArray<bool> contact;                 // f_normal_N above 5 N on a Go2, as much on others
-  LegArray<double> penetration_m;         // > 0 inside the ground
-  double trunk_force_N = 0.0;             // magnitude of all ground force on the trunk
-  EnergyLedger energy;
-  bool operator==(const Truth&) const = default;
-};
+/// What of a scenario's physics the engine cannot express, with its key; empty if nothing.
+[[nodiscard]] std::string EngineProblem(const PhysicsParams& params, bool has_sliding_payload);
 
 /// One quadruped on one ground. Bullet finds the contacts: feet touch the ground's bicubic surface
-/// in one contact each; trunk, thighs and shanks touch its triangulated heightfield. StepSolver
+/// in one contact each; trunk, thighs and shanks touch its triangulated heightfield. An Engine
 /// moves the robot.
-class World {
+class Plant {
  public:
-  /// `robot` and `ground` are borrowed and must outlive the world.
-  World(const core::RobotDescription& robot, const terrains::Heightfield& ground,
+  /// `robot` and `ground` are borrowed and must outlive the plant.
+  /// @pre EngineProblem() is empty.
+  Plant(const core::RobotDescription& robot, const terrains::Heightfield& ground,
         const PhysicsParams& params, const Vec3& gravity_W,
         const std::optional<SlidingPayloadParams>& sliding = std::nullopt);
-  ~World();
+  ~Plant();
   /// The copy goes on where the original is, with the same bits under the same torques; neither
   /// touches the other. Both borrow the same robot and ground.
-  World(const World& other);
-  World& operator=(const World&) = delete;
+  Plant(const Plant& other);
+  Plant& operator=(const Plant&) = delete;
 
   /// Places the robot at rest or in motion; contact memory is forgotten. Payloads stay on it.
   void Reset(const RobotState& state);

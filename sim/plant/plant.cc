@@ -1,27 +1,65 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/world.h"
+#include "sim/plant/plant.h"
 
 #include <vector>
 
 #include <Eigen/Cholesky>
+#include <fmt/format.h>
 
+#include "core/clone_ptr.h"
 #include "core/demand.h"
-#include "core/math/so3.h"
 #include "core/robot/kinematics.h"
 #include "sim/contact/contact_finder.h"
+#include "sim/engines/bullet/bullet_engine.h"
+#include "sim/engines/scoria/scoria_engine.h"
+#include "sim/plant/work.h"
 
 namespace scoria::sim {
 
 using core::RobotDescription;
 
-struct World::Impl {
+namespace {
+
+std::unique_ptr<Engine> MakeEngine(const RobotDescription& robot, const PhysicsParams& params,
+                                   const Vec3& gravity_W) {
+  const SolverParams solver{params.max_solver_iterations, params.solver_residual};
+  struct Make {
+    const RobotDescription& robot;
+    const SolverParams& solver;
+    const Vec3& gravity_W;
+    std::unique_ptr<Engine> operator()(const ScoriaDynamics&) const {
+      return std::make_unique<ScoriaEngine>(robot, solver);
+    }
+    std::unique_ptr<Engine> operator()(const BulletDynamics&) const {
+      return std::make_unique<BulletEngine>(robot, gravity_W, solver);
+    }
+  };
+  return std::visit(Make{robot, solver, gravity_W}, params.engine);
+}
+
+}  // namespace
+
+std::string EngineName(const EngineParams& engine) {
+  return std::visit([](const auto& type) { return std::string(type.kType); }, engine);
+}
+
+std::string EngineProblem(const PhysicsParams& params, bool has_sliding_payload) {
+  if (!std::holds_alternative<BulletDynamics>(params.engine)) return "";
+  constexpr const char* kOther = "engine bullet cannot express it; physics.engine.type: scoria can";
+  if (std::holds_alternative<PlasticGround>(params.ground))
+    return fmt::format("physics.ground.type: plastic: {}", kOther);
+  if (has_sliding_payload) return fmt::format("sliding_payload: {}", kOther);
+  return "";
+}
+
+struct Plant::Impl {
   Impl(const RobotDescription& robot_in, const terrains::Heightfield& ground_in,
        const PhysicsParams& params_in, const Vec3& gravity_in_W,
        const std::optional<SlidingPayloadParams>& sliding_in);
 
   void FindContacts();
-  void Integrate(const Vec18& v);
   void RecordContacts();
+  void Move(const RobotState& after);
   void UpdateTruth();
   void Impact(const Mat18& H_before);
 
@@ -32,7 +70,7 @@ struct World::Impl {
   core::WholeBodyModel model;
   core::WholeBody whole_body;  // at truth.state, without a sliding payload
   std::optional<SlidingPayload> sliding;
-  StepSolver solver;
+  core::ClonePtr<Engine> engine;
   ContactFinder contact_finder;
   // What a foot of the bare robot typically carries: the ground's damping ratio refers to it, and
   // the ground does not change with the payload.
@@ -40,6 +78,7 @@ struct World::Impl {
   LegArray<FootGround> feet;
   LegArray<Vec3> foot_impulse_W = ZeroPerLeg();  // of the last step: where the solver starts
   std::vector<ContactPoint> contacts;
+  int iterations = 0;  // of the last step
   std::int64_t unconverged_steps = 0;
   Truth truth;
   Vec3 impact_v_WB = Vec3::Zero();  // change of v_WB since the last step, by payloads
@@ -47,7 +86,7 @@ struct World::Impl {
   Vec3 f_trunk_W = Vec3::Zero(), t_trunk_W = Vec3::Zero();
 };
 
-World::Impl::Impl(const RobotDescription& robot_in, const terrains::Heightfield& ground_in,
+Plant::Impl::Impl(const RobotDescription& robot_in, const terrains::Heightfield& ground_in,
                   const PhysicsParams& params_in, const Vec3& gravity_in_W,
                   const std::optional<SlidingPayloadParams>& sliding_in)
     : robot(robot_in),
@@ -55,13 +94,15 @@ World::Impl::Impl(const RobotDescription& robot_in, const terrains::Heightfield&
       params(params_in),
       gravity_W(gravity_in_W),
       model(robot_in, gravity_in_W),
-      solver(robot_in, {params_in.max_solver_iterations, params_in.solver_residual}),
+      engine(MakeEngine(robot_in, params_in, gravity_in_W)),
       contact_finder(robot_in, ground_in),
       load_kg(robot_in.total_mass_kg() / kNumLegs) {
+  const std::string problem = EngineProblem(params, sliding_in.has_value());
+  SCORIA_DEMAND(problem.empty(), "{}", problem);
   if (sliding_in) sliding.emplace(*sliding_in, gravity_in_W);
 }
 
-void World::Impl::FindContacts() {
+void Plant::Impl::FindContacts() {
   const RobotState& state = truth.state;
   contact_finder.Find(core::CalcLinkPoses(robot, state.p_WB, state.R_WB, state.q), state.p_WB,
                       contacts);
@@ -85,23 +126,8 @@ void World::Impl::FindContacts() {
   }
 }
 
-void World::Impl::Integrate(const Vec18& v) {
-  RobotState& state = truth.state;
-  const double dt = params.step_s;
-  truth.a_WB = (v.head<3>() - state.v_WB + impact_v_WB) / dt;
-  impact_v_WB.setZero();
-  state.v_WB = v.head<3>();
-  state.w_WB = v.segment<3>(3);
-  state.p_WB += dt * state.v_WB;
-  state.R_WB = Quat(core::ExpSo3(dt * state.w_WB) * state.R_WB).normalized().toRotationMatrix();
-  for (const Leg leg : kLegs) {
-    state.qd[leg] = v.segment<3>(6 + kJointsPerLeg * static_cast<int>(leg));
-    state.q[leg] += dt * state.qd[leg];
-  }
-}
-
 /// Forces of the step, and what the feet did to the ground.
-void World::Impl::RecordContacts() {
+void Plant::Impl::RecordContacts() {
   truth.f_F_W = foot_impulse_W = ZeroPerLeg();
   truth.f_normal_N = truth.penetration_m = LegArray<double>(0.0);
   truth.contact = LegArray<bool>(false);
@@ -122,7 +148,21 @@ void World::Impl::RecordContacts() {
   truth.trunk_force_N = ground_on_trunk_W.norm();
 }
 
-void World::Impl::UpdateTruth() {
+/// Takes over what the engine found.
+void Plant::Impl::Move(const RobotState& after) {
+  RobotState& state = truth.state;
+  const double dt = params.step_s;
+  if (sliding) {
+    Vec6 change;
+    change << after.v_WB - state.v_WB, after.w_WB - state.w_WB;
+    truth.energy.work.joint_J += sliding->Step(state, change, dt);
+  }
+  truth.a_WB = (after.v_WB - state.v_WB + impact_v_WB) / dt;
+  impact_v_WB.setZero();
+  state = after;
+}
+
+void Plant::Impl::UpdateTruth() {
   model.Calc(truth.state, whole_body);
   truth.p_WC = whole_body.p_WC;
   truth.mass_kg = whole_body.mass_kg;
@@ -144,7 +184,7 @@ void World::Impl::UpdateTruth() {
 
 /// Plastic impact with what was added to the trunk at rest, at a mass matrix that is the new one
 /// already. The trunk drags a sliding payload only across its line.
-void World::Impl::Impact(const Mat18& H_before) {
+void Plant::Impl::Impact(const Mat18& H_before) {
   RobotState& state = truth.state;
   Vec18 v;
   v.head<6>() << state.v_WB, state.w_WB;
@@ -164,22 +204,22 @@ void World::Impl::Impact(const Mat18& H_before) {
   }
 }
 
-World::World(const RobotDescription& robot, const terrains::Heightfield& ground,
+Plant::Plant(const RobotDescription& robot, const terrains::Heightfield& ground,
              const PhysicsParams& params, const Vec3& gravity_W,
              const std::optional<SlidingPayloadParams>& sliding)
     : impl_(std::make_unique<Impl>(robot, ground, params, gravity_W, sliding)) {
   Reset(RobotState{});
 }
 
-World::~World() = default;
+Plant::~Plant() = default;
 
-World::World(const World& other) : impl_(std::make_unique<Impl>(*other.impl_)) {}
+Plant::Plant(const Plant& other) : impl_(std::make_unique<Impl>(*other.impl_)) {}
 
-void World::Reset(const RobotState& state) {
+void Plant::Reset(const RobotState& state) {
   Impl& w = *impl_;
   w.contact_finder.Forget();
   w.foot_impulse_W = ZeroPerLeg();
-  w.solver.Reset();
+  w.engine->Reset();
   w.impact_v_WB.setZero();
   if (w.sliding) w.sliding->Reset();
   for (const Leg leg : kLegs) {
@@ -191,7 +231,7 @@ void World::Reset(const RobotState& state) {
   w.truth.energy.initial_J = w.truth.energy.kinetic_J + w.truth.energy.potential_J;
 }
 
-void World::Step(const LegArray<Vec3>& tau_Nm) {
+void Plant::Step(const LegArray<Vec3>& tau_Nm) {
   Impl& w = *impl_;
   w.FindContacts();
   const Vec3 p_BC_W = w.truth.state.R_WB * w.robot.trunk.p_OC;
@@ -199,37 +239,33 @@ void World::Step(const LegArray<Vec3>& tau_Nm) {
   wrench_B_W << w.f_trunk_W, w.t_trunk_W + p_BC_W.cross(w.f_trunk_W);
   const double dt = w.params.step_s;
   if (w.sliding) w.sliding->AddTo(w.whole_body, dt);
-  const Vec18 v = w.solver.Solve(w.whole_body, tau_Nm, wrench_B_W, dt, w.contacts);
+  const StepInput input{w.whole_body, w.model.parameters().trunk, tau_Nm, wrench_B_W, dt};
+  const StepResult result = w.engine->Step(input, w.contacts);
+  w.truth.energy.work += CalcWork(input, result, w.contacts);
   w.RecordContacts();
-  if (w.sliding) {
-    Vec6 change = v.head<6>();
-    change.head<3>() -= w.truth.state.v_WB;
-    change.tail<3>() -= w.truth.state.w_WB;
-    w.truth.energy.work.joint_J += w.sliding->Step(w.truth.state, change, dt);
-  }
-  w.Integrate(v);
+  w.Move(result.state);
   w.UpdateTruth();
-  w.truth.energy.work += w.solver.work();
-  if (w.solver.iterations() >= w.params.max_solver_iterations) ++w.unconverged_steps;
+  w.iterations = result.iterations;
+  if (w.iterations >= w.params.max_solver_iterations) ++w.unconverged_steps;
 }
 
-const Truth& World::truth() const noexcept { return impl_->truth; }
+const Truth& Plant::truth() const noexcept { return impl_->truth; }
 
-int World::solver_iterations() const noexcept { return impl_->solver.iterations(); }
+int Plant::solver_iterations() const noexcept { return impl_->iterations; }
 
-std::int64_t World::unconverged_steps() const noexcept { return impl_->unconverged_steps; }
+std::int64_t Plant::unconverged_steps() const noexcept { return impl_->unconverged_steps; }
 
-void World::SetTrunkWrench(const Vec3& f_W, const Vec3& t_W) {
+void Plant::SetTrunkWrench(const Vec3& f_W, const Vec3& t_W) {
   impl_->f_trunk_W = f_W;
   impl_->t_trunk_W = t_W;
 }
 
-void World::SetFrictionScale(double scale) {
+void Plant::SetFrictionScale(double scale) {
   SCORIA_DEMAND(scale >= 0.0, "friction scale {}", scale);
   impl_->friction_scale = scale;
 }
 
-void World::RemoveSlidingPayload() {
+void Plant::RemoveSlidingPayload() {
   Impl& w = *impl_;
   if (!w.sliding) return;
   EnergyLedger& e = w.truth.energy;
@@ -240,7 +276,7 @@ void World::RemoveSlidingPayload() {
   e.work.external_J += e.kinetic_J + e.potential_J - before_J;
 }
 
-void World::SetTrunkParameters(const core::SpatialInertia& trunk, AttachVelocity attach_velocity) {
+void Plant::SetTrunkParameters(const core::SpatialInertia& trunk, AttachVelocity attach_velocity) {
   Impl& w = *impl_;
   EnergyLedger& e = w.truth.energy;
   const double before_J = e.kinetic_J + e.potential_J;

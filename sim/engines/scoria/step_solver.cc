@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/step_solver.h"
+#include "sim/engines/scoria/step_solver.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/demand.h"
 #include "core/math/cholesky.h"
+#include "sim/plant/joint_limit.h"
 
 namespace scoria::sim {
 namespace {
@@ -23,18 +24,19 @@ Vec3 Tangent(const Vec3& n) {
 StepSolver::StepSolver(const core::RobotDescription& robot, const SolverParams& params)
     : robot_(robot), params_(params) {}
 
-Vec18 StepSolver::Solve(const core::WholeBody& wb, const LegArray<Vec3>& tau_Nm,
-                        const Vec6& wrench_B_W, double dt_s, std::span<ContactPoint> contacts) {
+Vec18 StepSolver::Solve(const StepInput& in, std::span<ContactPoint> contacts) {
+  const core::WholeBody& wb = in.wb;
+  const double dt_s = in.dt_s;
   Factorize(wb, dt_s);
   Vec18 v_before, impulse;
   v_before.head<6>() << wb.state.v_WB, wb.state.w_WB;
-  impulse.head<6>() = dt_s * (wrench_B_W - wb.h_B);
+  impulse.head<6>() = dt_s * (in.wrench_B_W - wb.h_B);
   for (const Leg leg : kLegs) {
     const Vec3& qd = wb.state.qd[leg];
     v_before.segment<3>(FirstDof(leg)) = qd;
     impulse.segment<3>(FirstDof(leg)) =
         dt_s *
-        (tau_Nm[leg] - wb.h_l[leg] - robot_.config.motors.damping_Nms_per_rad.cwiseProduct(qd));
+        (in.tau_Nm[leg] - wb.h_l[leg] - robot_.config.motors.damping_Nms_per_rad.cwiseProduct(qd));
   }
   const Whitened before = ToWhitened(v_before), change = SolveLower(impulse);
   v_.trunk = before.trunk + change.trunk;
@@ -52,9 +54,7 @@ Vec18 StepSolver::Solve(const core::WholeBody& wb, const LegArray<Vec3>& tau_Nm,
             Velocity(rows.tangent2, v_) * tangent2_W;
   }
   for (std::size_t j = 0; j < kNumJoints; ++j) friction_guess_[j] = joints_[j].row.impulse;
-  const Vec18 v_after = FromWhitened(v_);
-  SumWork(v_before, v_after, tau_Nm, wrench_B_W, dt_s, before);
-  return v_after;
+  return FromWhitened(v_);
 }
 
 void StepSolver::Factorize(const core::WholeBody& wb, double dt_s) {
@@ -204,7 +204,8 @@ void StepSolver::CollectRows(const core::WholeBody& wb, std::span<const ContactP
   const Vec3 friction_Ns = dt_s * robot_.config.motors.friction_Nm;
   for (const Leg leg : kLegs) {
     for (int j = 0; j < kJointsPerLeg; ++j) {
-      JointRow friction{MakeRow(leg, Vec3::Unit(j), Vec6::Zero()), -friction_Ns[j], friction_Ns[j]};
+      JointRow friction{MakeRow(leg, Vec3::Unit(j), Vec6::Zero()), j, -friction_Ns[j],
+                        friction_Ns[j]};
       friction.row.impulse =
           std::clamp(friction_guess_[joints_.size()], -friction_Ns[j], friction_Ns[j]);
       Apply(friction.row, friction.row.impulse, v_);
@@ -216,20 +217,18 @@ void StepSolver::CollectRows(const core::WholeBody& wb, std::span<const ContactP
   }
 }
 
-/// A joint near a limit may use up the room that is left; one beyond it is drawn back slowly.
 void StepSolver::AddLimits(Leg leg, int j, const RobotState& state, double dt_s) {
-  constexpr double kUnlimited_Ns = 1e9, kNear_rad = 0.05, kReturn_radps = 1.0;
+  constexpr double kUnlimited_Ns = 1e9;
   const core::JointDescription& joint = robot_.legs[leg].joints[static_cast<std::size_t>(j)];
-  const double q = state.q[leg][j], reach_rad = kNear_rad + std::abs(state.qd[leg][j]) * dt_s;
-  const auto add = [&](double room_rad, double inwards) {
-    if (room_rad > reach_rad) return;
-    JointRow limit{MakeRow(leg, Vec3::Unit(j), Vec6::Zero()), inwards > 0.0 ? 0.0 : -kUnlimited_Ns,
-                   inwards > 0.0 ? kUnlimited_Ns : 0.0};
-    limit.row.target = -inwards * std::max(room_rad / dt_s, -kReturn_radps);
-    joints_.push_back(limit);
-  };
-  add(q - joint.lower_rad, 1.0);
-  add(joint.upper_rad - q, -1.0);
+  const double q = state.q[leg][j], qd = state.qd[leg][j];
+  if (const auto retreat = CalcLeastRetreat(q - joint.lower_rad, qd, dt_s)) {
+    joints_.push_back({MakeRow(leg, Vec3::Unit(j), Vec6::Zero()), j, 0.0, kUnlimited_Ns});
+    joints_.back().row.target = *retreat;
+  }
+  if (const auto retreat = CalcLeastRetreat(joint.upper_rad - q, qd, dt_s)) {
+    joints_.push_back({MakeRow(leg, Vec3::Unit(j), Vec6::Zero()), j, -kUnlimited_Ns, 0.0});
+    joints_.back().row.target = -*retreat;
+  }
 }
 
 void StepSolver::Iterate() {
@@ -277,25 +276,10 @@ double StepSolver::SolveJoint(JointRow& j) noexcept {
   return std::abs(change) / j.row.inverse_diagonal;
 }
 
-void StepSolver::SumWork(const Vec18& v_before, const Vec18& v_after, const LegArray<Vec3>& tau_Nm,
-                         const Vec6& wrench_B_W, double dt_s, const Whitened& before) {
-  const Vec18 mean = 0.5 * (v_before + v_after);
-  const auto of_row = [&](const Row& row) {
-    return 0.5 * row.impulse * (Velocity(row, before) + Velocity(row, v_));
-  };
-  work_ = {};
-  work_.external_J = dt_s * wrench_B_W.dot(mean.head<6>());
-  for (const Leg leg : kLegs) {
-    const Vec3 qd = mean.segment<3>(FirstDof(leg));
-    const Vec3 drag_Nm = robot_.config.motors.damping_Nms_per_rad.cwiseProduct(
-        Vec3(v_after.segment<3>(FirstDof(leg))));
-    work_.motor_J += dt_s * tau_Nm[leg].dot(qd);
-    work_.joint_J -= dt_s * drag_Nm.dot(qd);
-  }
-  for (const ContactRows& c : contacts_) {
-    work_.contact_J += of_row(c.normal) + of_row(c.tangent1) + of_row(c.tangent2);
-  }
-  for (const JointRow& j : joints_) work_.joint_J += of_row(j.row);
+LegArray<Vec3> StepSolver::JointImpulses() const noexcept {
+  LegArray<Vec3> impulses = ZeroPerLeg();
+  for (const JointRow& j : joints_) impulses[j.row.leg][j.joint] += j.row.impulse;
+  return impulses;
 }
 
 }  // namespace scoria::sim
