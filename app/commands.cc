@@ -10,6 +10,8 @@ namespace scoria::app {
 void AddCommands(CLI::App& app, int& exit_code) {
   AddRun(app, exit_code);
   AddCampaign(app, exit_code);
+  AddCheck(app, exit_code);
+  AddGate(app, exit_code);
   AddReport(app);
   AddBench(app);
   AddCheckQps(app, exit_code);

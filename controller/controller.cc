@@ -21,7 +21,7 @@ Count CountOf(Monitor monitor) noexcept {
 }  // namespace
 
 SensingParams SensingOf(const ControllerParams& params) {
-  return {params.samples, params.contact, params.estimator, params.adaptation};
+  return {params.samples, params.contact, params.estimator, params.adaptation, params.model};
 }
 
 bool NeedsTruth(const ControllerParams& params) noexcept { return NeedsTruth(SensingOf(params)); }

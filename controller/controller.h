@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "controller/gait/gait_sequencer.h"
+#include "controller/model/model_params.h"
 #include "controller/mpc/mpc_runner.h"
 #include "controller/reference/reference_planner.h"
 #include "controller/safety/leg_state_machine.h"
@@ -36,6 +37,7 @@ struct RateParams {
 
 struct ControllerParams {
   RateParams rates;
+  ModelParams model;
   SampleGuardParams samples;
   ContactParams contact;
   EstimatorParams estimator;
@@ -54,6 +56,7 @@ struct ControllerParams {
   template <class Archive>
   void Serialize(Archive& a) {
     a.Field("rates", rates);
+    a.Field("model", model);
     a.Field("samples", samples);
     a.Field("contact", contact);
     a.Field("estimator", estimator);

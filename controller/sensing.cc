@@ -4,6 +4,14 @@
 #include <utility>
 
 namespace scoria::controller {
+namespace {
+
+core::ModelParameters WithMassOffset(core::ModelParameters model, double offset_kg) noexcept {
+  model.trunk.mass_kg += offset_kg;
+  return model;
+}
+
+}  // namespace
 
 bool NeedsTruth(const SensingParams& params) noexcept {
   return NeedsTruth(params.contact) || NeedsTruth(params.estimator);
@@ -20,9 +28,17 @@ Sensing::Sensing(const SensingParams& params, const core::RobotDescription& robo
       contact_(std::in_place, params.contact, robot, gravity_mps2, step_s),
       estimator_(MakeStateEstimator(params.estimator, robot, gravity_mps2, placement)),
       adapter_(MakeModelAdapter(params.adaptation, robot, gravity_mps2, params.contact.observer)) {
-  if (!known) return;
-  model_.SetParameters(*known);
-  adapter_->Continue(*known);
+  if (known) {
+    ActOn(*known);
+  } else if (params.model != ModelParams{}) {
+    ActOn(WithMassOffset(model_.parameters(), params.model.mass_offset_kg));
+  }
+}
+
+/// The model to go on with, until adaptation finds another.
+void Sensing::ActOn(const core::ModelParameters& model) noexcept {
+  model_.SetParameters(model);
+  adapter_->Continue(model);
 }
 
 const Sensed& Sensing::Step(const SensorFrame& raw, const SensingContext& context,
@@ -89,6 +105,9 @@ void Sensing::Reconfigure(const SensingParams& params) {
     adapter_ = MakeModelAdapter(params.adaptation, robot_, gravity_mps2, params.contact.observer);
     adapter_->Continue(model_.parameters());
   }
+  if (params.model != before.model)
+    ActOn(WithMassOffset(model_.parameters(),
+                         params.model.mass_offset_kg - before.model.mass_offset_kg));
   samples_.set_params(params.samples);
 }
 

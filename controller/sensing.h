@@ -7,6 +7,7 @@
 #include "controller/estimation/contact_estimator.h"
 #include "controller/estimation/sample_guard.h"
 #include "controller/estimation/state_estimator.h"
+#include "controller/model/model_params.h"
 #include "core/clone_ptr.h"
 #include "core/robot/counters.h"
 #include "core/robot/local_ground.h"
@@ -22,6 +23,7 @@ struct SensingParams {
   ContactParams contact;
   EstimatorParams estimator;
   AdapterParams adaptation;
+  ModelParams model = {};
   bool operator==(const SensingParams&) const = default;
 };
 
@@ -65,7 +67,7 @@ class Sensing {
  public:
   /// @param robot   borrowed.
   /// @param step_s  time between two calls of Step.
-  /// @param known   model from before; none: the nominal one.
+  /// @param known   model from before; none: the nominal one with the offset of the parameters.
   Sensing(const SensingParams& params, const core::RobotDescription& robot, double gravity_mps2,
           double step_s, const Placement& placement,
           const std::optional<core::ModelParameters>& known);
@@ -93,6 +95,7 @@ class Sensing {
   [[nodiscard]] const SensorFrame& last_samples() const noexcept { return samples_.last(); }
 
  private:
+  void ActOn(const core::ModelParameters& model) noexcept;
   void SubstituteState(const TrueInputs& true_inputs) noexcept;
   void UpdateModel(const TrueInputs& true_inputs) noexcept;
 

@@ -16,16 +16,17 @@ void SequentialTTest::Add(double difference) {
   squares_ += difference * difference;
   ++count_;
   if (squares_ == 0.0) return;
-  const double n = count_, direction = sum_ / std::sqrt(squares_);  // S
+  const double n = count_, all = count_ + pilot_count_,
+               direction = sum_ / std::sqrt(squares_);  // S
   const double sign = alternative_ == Alternative::kLess ? -1.0 : 1.0;
   std::array<double, kVariances.size()> log_e{};
   for (std::size_t i = 0; i < kVariances.size(); ++i) {
     const double g = kVariances[i], shrink = g / (1.0 + n * g);
     const double rest = 1.0 - direction * direction * shrink;  // > 0, since S² ≤ n
-    log_e[i] = -0.5 * std::log1p(n * g) - 0.5 * n * std::log(rest);
+    log_e[i] = -0.5 * std::log1p(n * g) - 0.5 * all * std::log(rest);
     if (alternative_ == Alternative::kTwoSided) continue;
-    const boost::math::students_t_distribution<double> t(n);
-    const double share = cdf(t, sign * direction * std::sqrt(n * shrink / rest));
+    const boost::math::students_t_distribution<double> t(all);
+    const double share = cdf(t, sign * direction * std::sqrt(all * shrink / rest));
     log_e[i] += std::log(std::max(2.0 * share, std::numeric_limits<double>::min()));
   }
   evidence_.Update(LogMeanExp(log_e));

@@ -15,11 +15,22 @@ namespace scoria::analysis {
 ///   E_g = (1 + n g)^-1/2 (1 - S² g / (1 + n g))^-n/2,  S² = (Σ d)² / Σ d²,
 /// and for one side twice that times the distribution function of Student's t with n degrees of
 /// freedom.
-/// Source: [Lai1976], [PerezOrtiz2024].
+/// Earlier values that tell the scale alone (a pilot) count in Σ d² and in the n of the exponent
+/// and of the degrees of freedom, not in Σ d and in the other n: with many of them a large effect
+/// shows in its first pair. If the differences spread less than the pilot, the test errs on the
+/// safe side. Source: [Lai1976], [PerezOrtiz2024].
 class SequentialTTest {
  public:
+  /// Deviations of the differences' scale: the sum of their squares, and how many degrees of
+  /// freedom they have.
+  struct Pilot {
+    double squares = 0.0;
+    int count = 0;
+  };
   explicit SequentialTTest(Alternative alternative = Alternative::kTwoSided) noexcept
-      : alternative_(alternative) {}
+      : SequentialTTest(alternative, Pilot()) {}
+  SequentialTTest(Alternative alternative, const Pilot& pilot) noexcept
+      : alternative_(alternative), squares_(pilot.squares), pilot_count_(pilot.count) {}
 
   /// @param difference  of the next pair, finite; in any order that does not depend on it.
   void Add(double difference);
@@ -28,7 +39,7 @@ class SequentialTTest {
  private:
   Alternative alternative_;
   double sum_ = 0.0, squares_ = 0.0;
-  int count_ = 0;
+  int pilot_count_ = 0, count_ = 0;
   EProcess evidence_;
 };
 

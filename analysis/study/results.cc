@@ -24,6 +24,8 @@ void FillMetrics(const json& j, EpisodeRecord& episode) {
   outcome.real_time_factor = j.at("real_time_factor").get<double>();
   j.at("walked_m").get_to(episode.walked_m);
   j.at("counters").get_to(episode.counters);
+  episode.events = j.value("events", episode.events);  // not in older results
+  episode.state_hash = j.value("state_hash", episode.state_hash);
   episode.us_per_step = j.value("us_per_step", episode.us_per_step);  // not in older results
   episode.terrain = StatisticsFromJson(j.at("terrain"));
   episode.metrics = j.at("metrics").get<EpisodeMetrics>();

@@ -21,6 +21,8 @@ struct EpisodeRecord {
   double walked_m = 0.0;
   std::map<std::string, double> us_per_step;      // wall clock by stage
   std::map<std::string, std::uint64_t> counters;  // what did not go to plan, by name
+  std::map<std::string, std::uint64_t> events;    // how many of each kind
+  std::string state_hash;                         // of the whole walk, in hexadecimal
   terrains::TerrainStatistics terrain;
   EpisodeMetrics metrics;
   std::string ground;       // equal where episodes walked the same one

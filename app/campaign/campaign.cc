@@ -6,7 +6,9 @@
 
 #include "app/campaign/campaign_file.h"
 #include "app/scenario/config_kinds.h"
+#include "app/scenario/observable.h"
 #include "core/files.h"
+#include "core/text.h"
 
 namespace scoria::app {
 namespace {
@@ -88,6 +90,32 @@ void AddJobs(const Campaign& campaign, const CampaignArm& arm, std::vector<std::
   }
 }
 
+/// Errors: core::ConfigError if an expectation is of an arm that there is not, or is a ratio of
+/// something other than falls.
+void CheckExpected(const Campaign& campaign, const ConfigNode& node) {
+  std::vector<std::string> names;
+  for (const CampaignArm& arm : campaign.arms) names.push_back(arm.name);
+  CheckExpectedNames(node);
+  for (const auto& [name, bounds] : campaign.expect) {
+    const core::Origin& origin = node.Find("expect")->Find(name)->origin;
+    const std::string path = "expect." + name;
+    std::vector<std::string> named = bounds.arms;
+    for (const ArmComparison& c : bounds.compare) {
+      named.insert(named.end(), {c.of, c.to});
+      if ((c.ratio_below || c.ratio_above) && !IsFallRate(name))
+        throw ConfigError(origin, path, "only falls and falls_per_m have ratios");
+      if ((c.difference_below || c.difference_above) && !IsMetric(name))
+        throw ConfigError(origin, path, "only metrics have differences");
+    }
+    for (const std::string& arm : named) {
+      if (!std::ranges::count(names, arm))
+        throw ConfigError(
+            origin, path,
+            fmt::format("{} is none of the arms{}", arm, core::DidYouMean(arm, names)));
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<CampaignJob> Plan(const Campaign& campaign) {
@@ -115,12 +143,16 @@ Campaign LoadCampaign(const fs::path& file, const std::vector<std::string>& over
     throw ConfigError(node.Find("arms")->origin, "arms", "must list at least one arm");
   Campaign campaign;
   campaign.name = read.name;
+  campaign.file = file;
+  campaign.overrides = overrides;
   campaign.scenario = read.scenario.node;
   campaign.first_seed = read.first_seed;
   campaign.seeds = read.seeds;
+  campaign.expect = read.expect;
   for (const ArmFile& arm : read.arms) campaign.arms.push_back(ToArm(arm));
   for (std::size_t i = 0; i < read.sweep.size(); ++i)
     campaign.sweep.push_back(MakeAxis(read.sweep[i], node.Find("sweep")->items[i], i));
+  CheckExpected(campaign, node);
   std::set<std::string> notes;
   for (const CampaignJob& job : Plan(campaign))  // checks every scenario
     notes.insert(job.scenario.notes.begin(), job.scenario.notes.end());

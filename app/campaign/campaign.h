@@ -30,11 +30,14 @@ struct CampaignAxis {
 /// (paired).
 struct Campaign {
   std::string name;
+  std::filesystem::path file;          // that it was read from, as it was named
+  std::vector<std::string> overrides;  // of the command line
   core::ConfigNode scenario;
   std::vector<CampaignArm> arms;
   std::vector<CampaignAxis> sweep;
   std::uint64_t first_seed = 1;
   int seeds = 3;
+  ArmExpectations expect;
   core::ConfigNotes notes;  // about the scenarios' texts
 };
 
@@ -70,6 +73,10 @@ struct CampaignOutcome {
   bool interrupted = false;
   std::string disk_problem;  // why the campaign ended early, if the disk refused a file
 };
+
+/// Writes campaign.json: what the folder of a campaign holds. Errors: core::FileError.
+void WriteIndex(const Campaign& campaign, const std::vector<CampaignJob>& jobs,
+                const std::filesystem::path& folder);
 
 /// Runs every episode in a worker process of its own: a crash is an outcome in the results, never
 /// the end of the batch. Episodes whose result stands in the folder, of the same version and

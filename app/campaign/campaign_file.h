@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/scenario/expectation.h"
 #include "core/config/archive.h"
 
 namespace scoria::app {
@@ -41,6 +42,7 @@ struct CampaignFile {
   std::vector<AxisFile> sweep;
   std::uint64_t first_seed = 1;
   int seeds = 3;
+  ArmExpectations expect;
   template <class Archive>
   void Serialize(Archive& a) {
     a.Required("name", name);
@@ -49,6 +51,9 @@ struct CampaignFile {
     a.Field("sweep", sweep, {.doc = "every arm walks every combination"});
     a.Field("first_seed", first_seed, {.doc = "master seed of the first episode"});
     a.Field("seeds", seeds, {.min = 1, .max = 100000, .doc = "episodes per arm and combination"});
+    a.Field("expect", expect,
+            {.doc = "what scoria check holds the episodes of each arm together to, by the names of "
+                    "a scenario's expect; that holds for every episode"});
   }
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 
@@ -51,6 +52,11 @@ std::string WordsOf(const fs::path& folder) {
   std::string words = core::ReadText(folder / "worker.txt");
   while (words.ends_with('\n')) words.pop_back();
   return words;
+}
+
+std::string WhyDiskRefused(const fs::path& folder) {
+  const std::string words = WordsOf(folder);  // none: there was no room for them
+  return words.empty() ? core::FileError(folder, "cannot write", ENOSPC).what() : words;
 }
 
 void WriteCrash(const fs::path& folder, const CampaignJob& job, const JobExit& exit) {

@@ -22,6 +22,9 @@ enum class WorkerEnd { kResult, kCrashed, kUnfinished, kDiskRefused };
 /// What a worker said at its end.
 [[nodiscard]] std::string WordsOf(const std::filesystem::path& folder);
 
+/// What the disk refused a worker, in words.
+[[nodiscard]] std::string WhyDiskRefused(const std::filesystem::path& folder);
+
 /// A worker that died leaves its death as the episode's result.
 void WriteCrash(const std::filesystem::path& folder, const CampaignJob& job, const JobExit& exit);
 

@@ -14,6 +14,7 @@ namespace scoria::app {
 struct JobExit {
   int code = 0;               // its exit code, where no signal ended it
   std::optional<int> signal;  // that ended it
+  double wall_s = 0.0;        // since its start
 };
 
 struct EndedJob {

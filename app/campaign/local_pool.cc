@@ -11,6 +11,7 @@
 
 #include "app/campaign/executor.h"
 #include "app/cli/exit_codes.h"
+#include "core/stopwatch.h"
 
 namespace scoria::app {
 namespace {
@@ -32,9 +33,9 @@ pid_t StartWorker(const std::string& program, const fs::path& folder) {
   _exit(127);
 }
 
-JobExit ToExit(int status) {
-  if (WIFSIGNALED(status)) return {0, WTERMSIG(status)};
-  return {WEXITSTATUS(status), std::nullopt};
+JobExit ToExit(int status, double wall_s) {
+  if (WIFSIGNALED(status)) return {0, WTERMSIG(status), wall_s};
+  return {WEXITSTATUS(status), std::nullopt, wall_s};
 }
 
 class LocalPool final : public Executor {
@@ -49,14 +50,14 @@ class LocalPool final : public Executor {
   void Start(const CampaignJob& job, const fs::path& folder) override {
     const pid_t pid = StartWorker(program_, folder);
     if (pid < 0) throw std::runtime_error("cannot start a worker process");
-    running_[pid] = &job;
+    running_[pid] = {&job, {}};
   }
 
   [[nodiscard]] std::optional<EndedJob> Wait() override {
-    for (const auto& [pid, job] : running_) {
+    for (const auto& [pid, running] : running_) {
       int status = 0;
       if (waitpid(pid, &status, WNOHANG) != pid) continue;
-      const EndedJob ended{job, ToExit(status)};
+      const EndedJob ended{running.job, ToExit(status, running.since_start.seconds())};
       running_.erase(pid);
       return ended;
     }
@@ -66,13 +67,17 @@ class LocalPool final : public Executor {
   }
 
   void Stop() override {
-    for (const auto& [pid, job] : running_) kill(pid, SIGTERM);
+    for (const auto& [pid, running] : running_) kill(pid, SIGTERM);
   }
 
  private:
+  struct Running {
+    const CampaignJob* job = nullptr;
+    core::Stopwatch since_start;
+  };
   std::string program_;
   int workers_;
-  std::map<pid_t, const CampaignJob*> running_;
+  std::map<pid_t, Running> running_;
 };
 
 }  // namespace

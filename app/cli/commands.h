@@ -11,6 +11,8 @@ namespace scoria::app {
 /// well.
 void AddRun(CLI::App& app, int& exit_code);
 void AddCampaign(CLI::App& app, int& exit_code);
+void AddCheck(CLI::App& app, int& exit_code);
+void AddGate(CLI::App& app, int& exit_code);
 void AddReport(CLI::App& app);
 void AddRender(CLI::App& app);
 void AddCheckQps(CLI::App& app, int& exit_code);

@@ -15,7 +15,9 @@ ProgressBar::ProgressBar(std::string title)
       start_(std::chrono::steady_clock::now()),
       last_(start_ - std::chrono::seconds(1)) {}
 
-ProgressBar::~ProgressBar() {
+ProgressBar::~ProgressBar() { Clear(); }
+
+void ProgressBar::Clear() {
   if (enabled_) fmt::print(stderr, "\r\033[K");
 }
 

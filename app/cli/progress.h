@@ -14,6 +14,8 @@ class ProgressBar {
   ~ProgressBar();
   /// @param done in [0, 1].
   void Update(double done, const std::string& counts);
+  /// Makes room for other output; the next Update shows the line again.
+  void Clear();
 
  private:
   std::string title_;

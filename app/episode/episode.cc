@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "app/episode/event_texts.h"
 #include "app/episode/placement.h"
 #include "app/episode/rows.h"
@@ -31,6 +33,16 @@ analysis::FallSample ToFallSample(const sim::Truth& truth, double dt_s,
 
 Vec3 GravityOf(const Scenario& scenario) { return {0.0, 0.0, -scenario.gravity_mps2}; }
 
+/// A trunk must keep some mass.
+void CheckModel(const controller::ControllerParams& params, const core::RobotDescription& robot) {
+  constexpr double kLeastShare = 0.1;
+  const double trunk_kg = robot.trunk.mass_kg;
+  if (trunk_kg + params.model.mass_offset_kg >= kLeastShare * trunk_kg) return;
+  throw core::ConfigError({}, "controller.model.mass_offset_kg",
+                          fmt::format("{}: leaves the trunk of {:.2f} kg less than a tenth",
+                                      params.model.mass_offset_kg, trunk_kg));
+}
+
 }  // namespace
 
 Episode::Episode(const Scenario& scenario, const core::RobotDescription& robot,
@@ -53,6 +65,8 @@ Episode::Episode(const Scenario& scenario, const core::RobotDescription& robot,
       row_every_(core::RateDivider(scenario.controller.rates.wbc_Hz, scenario.physics.step_s)
                      .every_steps()),
       give_truth_(NeedsTruthEver(scenario)) {
+  CheckModel(scenario.controller, robot);
+  for (const auto& changed : ChangedControllers(scenario)) CheckModel(changed, robot);
   result_.route = operator_.route();
   SetDown(operator_.start(), 0.0, scenario.start == StartPose::kStanding);
 }

@@ -12,6 +12,7 @@
 #include "analysis/report/json_text.h"
 #include "app/episode/run_episode.h"
 #include "app/inspect/bench_logs.h"
+#include "app/inspect/bench_workers.h"
 #include "controller/estimation/inekf.h"
 #include "controller/qp/sets/qp_bench.h"
 #include "controller/stand_up.h"
@@ -240,6 +241,27 @@ void BenchLogs(const Options& o) {
   if (o.json) fmt::print("{}", analysis::JsonText(json));
 }
 
+/// The throughput of two worker processes over that of one: the best of three pairs.
+void BenchWorkers(const Options& o) {
+  constexpr int kEpisodes = 6, kPairs = 3;
+  const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
+  nlohmann::json json = nlohmann::json::array();
+  double best = 0.0;
+  for (const WorkersPair& p :
+       BenchmarkWorkers(LoadScenario(o.scenario, o.set), program, kEpisodes, kPairs)) {
+    best = std::max(best, p.gain());
+    json.push_back({{"one_s", p.one_s}, {"two_s", p.two_s}, {"gain", p.gain()}});
+    if (!o.json)
+      fmt::print("{} episodes: {:.2f} s with one worker, {:.2f} s with two, {:.2f} times\n",
+                 kEpisodes, p.one_s, p.two_s, p.gain());
+  }
+  if (o.json) {
+    fmt::print("{}", analysis::JsonText({{"pairs", json}, {"best_gain", best}}));
+  } else {
+    fmt::print("two workers have {:.2f} times the throughput of one, best of {}\n", best, kPairs);
+  }
+}
+
 CLI::App* AddPart(CLI::App& bench, const std::string& name, const std::string& what,
                   const std::shared_ptr<Options>& o, void (*function)(const Options&)) {
   CLI::App* part = bench.add_subcommand(name, what);
@@ -275,6 +297,9 @@ void AddBench(CLI::App& app) {
       AddPart(*bench, "physics", "time a physics step of a standing robot", o, BenchPhysics), o);
   AddScenario(
       AddPart(*bench, "episode", "walk a scenario and tell where the time goes", o, BenchEpisode),
+      o);
+  AddScenario(
+      AddPart(*bench, "workers", "time episodes in one worker process and in two", o, BenchWorkers),
       o);
 }
 

@@ -5,7 +5,7 @@
 
 namespace scoria::app {
 
-/// `scoria bench qp | model | estimator | physics | episode | logs`.
+/// `scoria bench qp | model | estimator | physics | episode | workers | logs`.
 void AddBench(CLI::App& app);
 
 }  // namespace scoria::app

@@ -58,6 +58,7 @@ nlohmann::json ResultToJson(const EpisodeReport& report, const Scenario& scenari
           {"message", report.failure},
           {"state_hash", fmt::format("{:016x}", r.state_hash)},
           {"counters", CountersToJson(r.counters)},
+          {"events", report.events},
           {"unconverged_physics_steps", r.unconverged_steps},
           {"real_time_factor", report.real_time_factor},
           {"us_per_step", TimesToJson(r.times, per_step_us)},

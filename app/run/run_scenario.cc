@@ -59,6 +59,7 @@ class ScenarioRun {
     };
     progress_.on_event = [this](const EpisodeEvent& event) {
       if (event.kind == "fall") ++falls_;
+      ++events_[event.kind];
       if (options_.on_event) options_.on_event(event.time_s, event.kind, event.detail);
     };
     observers_ = {&metrics_rows_, &progress_};
@@ -73,6 +74,7 @@ class ScenarioRun {
         RunEpisode(scenario_, robot_, terrain_.ground, observers_, options_.interrupted);
     for (const analysis::FallEvent& fall : report.result.fall_events) metrics_.AddFall(fall);
     report.metrics = metrics_.Finish();
+    report.events = events_;
     if (file_) file_->Close();
     if (qps_) qps_->Close();
     Judge(report);
@@ -133,6 +135,7 @@ class ScenarioRun {
   std::optional<QpRecorder> qps_;
   std::vector<EpisodeObserver*> observers_;
   int falls_ = 0;
+  std::map<std::string, int> events_;  // by kind
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 
 #include "analysis/metrics/metrics.h"
@@ -17,10 +18,11 @@ namespace scoria::app {
 struct EpisodeReport {
   EpisodeResult result;
   analysis::EpisodeMetrics metrics;
-  double simulated_s = 0.0;       // at least one step
-  double real_time_factor = 0.0;  // simulated time over wall time, without set-up
-  double commanded_m = 0.0;       // horizontal way, three seconds for standing up left out
-  std::string failure;            // why this was no walk, in words; empty if it was one
+  std::map<std::string, int> events;  // how many of each kind
+  double simulated_s = 0.0;           // at least one step
+  double real_time_factor = 0.0;      // simulated time over wall time, without set-up
+  double commanded_m = 0.0;           // horizontal way, three seconds for standing up left out
+  std::string failure;                // why this was no walk, in words; empty if it was one
 };
 
 struct RunOptions {

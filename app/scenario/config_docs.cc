@@ -125,8 +125,16 @@ json Schema(const FieldInfo& f) {
   if (f.kind == "struct") schema = ObjectSchema(f.children);
   if (f.kind == kMapByName)
     schema = {{"type", "object"}, {"additionalProperties", Schema(f.children.front())}};
-  if (f.has_short_form)
-    schema = {{"anyOf", {{{"type", "string"}}, ListSchema({{"type", "string"}}), schema}}};
+  if (f.has_short_form) {
+    json any = json::array({schema});
+    for (const bool list : {false, true}) {  // what stands for the struct is its first of the kind
+      const auto child = std::find_if(f.children.begin(), f.children.end(), [&](const auto& c) {
+        return c.kind.starts_with("list") == list;
+      });
+      any.push_back(Schema(*child));
+    }
+    schema = {{"anyOf", std::move(any)}};
+  }
   if (f.kind == "variant") schema = VariantSchema(f);
   if (!f.doc.empty()) schema["description"] = f.doc;
   return schema;

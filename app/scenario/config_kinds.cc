@@ -49,6 +49,18 @@ bool Fits(const ConfigNode& node, const std::vector<FieldInfo>& fields) {
          std::all_of(fields.begin(), fields.end(), is_there);
 }
 
+/// As Fits, for one alternative of a variant.
+bool FitsVariant(const ConfigNode& node, const FieldInfo& variant) {
+  const ConfigNode* type = node.Find("type");
+  ConfigNode rest = node;
+  std::erase_if(rest.entries, [](const ConfigNode::Entry& e) { return e.key == "type"; });
+  return std::any_of(variant.children.begin(), variant.children.end(),
+                     [&](const FieldInfo& alternative) {
+                       return type != nullptr && type->scalar == alternative.key &&
+                              Fits(rest, alternative.children);
+                     });
+}
+
 void RefuseOtherKind(const ConfigNode& node, std::string_view wanted) {
   const auto own = std::find_if(kKinds.begin(), kKinds.end(),
                                 [&](const ConfigKind& kind) { return kind.name == wanted; });
@@ -68,6 +80,15 @@ void RefuseOtherKind(const ConfigNode& node, std::string_view wanted) {
 }  // namespace
 
 std::span<const ConfigKind> ConfigKinds() { return kKinds; }
+
+std::string_view KindOf(const ConfigNode& node) {
+  for (const ConfigKind& kind : kKinds) {
+    const FieldInfo info = kind.describe();
+    if (info.kind == "variant" ? FitsVariant(node, info) : Fits(node, info.children))
+      return kind.name;
+  }
+  return "";
+}
 
 ConfigNode LoadKind(std::string_view kind, const std::filesystem::path& file,
                     const std::vector<std::string>& overrides) {

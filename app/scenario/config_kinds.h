@@ -21,6 +21,9 @@ struct ConfigKind {
 /// Scenario first.
 [[nodiscard]] std::span<const ConfigKind> ConfigKinds();
 
+/// The first kind whose keys the map has, every required one among them; empty if none.
+[[nodiscard]] std::string_view KindOf(const core::ConfigNode& node);
+
 /// Reads a file of that kind, with command-line overrides "key.sub=value".
 /// Errors: core::ConfigError, also where the file is plainly one of another kind.
 [[nodiscard]] core::ConfigNode LoadKind(std::string_view kind, const std::filesystem::path& file,

@@ -122,6 +122,7 @@ Scenario ReadScenario(const core::ConfigNode& node, const core::Similarity& simi
   Scenario scenario;
   scenario.similarity = similarity;
   core::ConfigReader::Read(node, "", context, scenario);
+  CheckExpectedNames(node);
   scenario.notes = std::move(context.notes);
   return scenario;
 }

@@ -8,6 +8,7 @@
 
 #include "app/episode/fall_params.h"
 #include "app/episode/operator.h"
+#include "app/scenario/expectation.h"
 #include "controller/controller.h"
 #include "core/robot/description.h"
 #include "sim/payload.h"
@@ -131,6 +132,7 @@ struct Scenario {
   FallParams fall;
   int max_falls = 1000;
   LogParams log;
+  Expectations expect;
   core::Similarity similarity;  // of the robot: what the text does not give is scaled by it
   core::ConfigNotes notes;      // about the text that it was read from
   template <class Archive>
@@ -155,6 +157,10 @@ struct Scenario {
     a.Field("fall", fall);
     a.Field("max_falls", max_falls, {.min = 0, .max = 1e6, .doc = "the episode ends at this many"});
     a.Field("log", log);
+    a.Field("expect", expect,
+            {.doc = "what scoria check holds the episode to: bounds by name of a metric, as falls "
+                    "or tracking.height_rmse_mm, of events.KIND, supervisor.MONITOR or "
+                    "counters.NAME"});
   }
   [[nodiscard]] std::string Problem() const;
 };
