@@ -21,6 +21,7 @@ void AddCommands(CLI::App& app, int& exit_code) {
   AddVerify(app, exit_code);
   AddReplay(app, exit_code);
   AddScenarioFrom(app);
+  AddCompare(app, exit_code);
   AddAnalyze(app);
   AddExport(app, exit_code);
 }

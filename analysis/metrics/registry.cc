@@ -56,9 +56,10 @@ std::optional<double> PoolMetric(const Metric& metric, const EpisodeMetrics& sum
 
 Metrics AllMetrics() {
   Metrics all;
-  for (const auto family : {SafetyMetrics, TransportMetrics, TrackingMetrics,
-                            EstimationFamilyMetrics, ContactFamilyMetrics, ModelFamilyMetrics,
-                            EnergyMetrics, TimingMetrics, GaitMetrics, FieldMetrics}) {
+  for (const auto family :
+       {SafetyMetrics, TransportMetrics, TrackingMetrics, EstimationFamilyMetrics,
+        ContactFamilyMetrics, ModelFamilyMetrics, EnergyMetrics, EffortMetrics, TimingMetrics,
+        GaitMetrics, FieldMetrics}) {
     for (const Metric& metric : family()) all.push_back(metric);
   }
   all.push_back(FallbackShareMetric());

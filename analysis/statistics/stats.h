@@ -7,11 +7,9 @@
 #include <string_view>
 #include <vector>
 
-namespace scoria::analysis {
+#include "analysis/statistics/interval.h"
 
-struct Interval {
-  double low = 0.0, high = 0.0;
-};
+namespace scoria::analysis {
 
 /// Quantile of a sample by linear interpolation between its ordered values.
 /// @param values not empty. @param share in [0, 1].

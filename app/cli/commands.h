@@ -20,6 +20,7 @@ void AddSchema(CLI::App& app);
 void AddVerify(CLI::App& app, int& exit_code);
 void AddReplay(CLI::App& app, int& exit_code);
 void AddScenarioFrom(CLI::App& app);
+void AddCompare(CLI::App& app, int& exit_code);
 void AddAnalyze(CLI::App& app);
 void AddExport(CLI::App& app, int& exit_code);
 

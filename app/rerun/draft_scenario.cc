@@ -28,11 +28,32 @@ constexpr double kShort_m = 0.25, kLong_m = 1.0;
 /// What footholds on level ground differ by, as a Go2's walk tells them.
 constexpr double kNoise_m = 0.008;
 
+/// The walked part of a ground is rougher or smoother than the whole: an operator chooses the way.
+/// A factor is cheaper than another form, by this share of its logarithm.
+constexpr double kLeastScale = 0.4, kMostScale = 2.5, kScaleCost = 0.5;
+
 struct Preset {
   fs::path file;
   double nu_short_m = 0.0, nu_long_m = 0.0;
-  double distance = 0.0;  // from the footholds: log ratios, root of the sum of squares
+  double scale = 1.0;     // with which it is nearest to the footholds
+  double distance = 0.0;  // then: log ratios, root of the sum of squares, and the scale's cost
 };
+
+/// The scale with which a preset is nearest to footholds.
+void Fit(double found_short_m, double found_long_m, Preset& preset) {
+  const auto ratio = [](double found_m, double preset_m) {
+    return std::log(std::max(found_m, kNoise_m) / std::hypot(preset_m, kNoise_m));
+  };
+  const double at_short = ratio(found_short_m, preset.nu_short_m),
+               at_long = ratio(found_long_m, preset.nu_long_m);
+  const bool is_level = std::max(preset.nu_short_m, preset.nu_long_m) < kNoise_m;
+  const double log_scale = is_level ? 0.0
+                                    : std::clamp(0.5 * (at_short + at_long), std::log(kLeastScale),
+                                                 std::log(kMostScale));
+  preset.scale = std::exp(log_scale);
+  preset.distance =
+      std::hypot(at_short - log_scale, at_long - log_scale) + kScaleCost * std::abs(log_scale);
+}
 
 /// Presets by their distance from the footholds, the nearest first; none if those are too few.
 std::vector<Preset> NearestPresets(const fs::path& folder,
@@ -40,9 +61,6 @@ std::vector<Preset> NearestPresets(const fs::path& folder,
   const std::optional<double> at_short = footholds.Nu_m(kShort_m),
                               at_long = footholds.Nu_m(kLong_m);
   if (!at_short || !at_long) return {};
-  const auto ratio = [](double found_m, double preset_m) {
-    return std::log(std::max(found_m, kNoise_m) / std::hypot(preset_m, kNoise_m));
-  };
   std::vector<Preset> presets;
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() != ".yaml") continue;
@@ -52,8 +70,7 @@ std::vector<Preset> NearestPresets(const fs::path& folder,
         terrains::MeasureTerrain(terrains::GenerateTerrain(params, 1, 0), params);
     const auto known = [](double nu_m) { return std::isfinite(nu_m) ? nu_m : 0.0; };
     Preset preset{entry.path(), known(found.nu_25cm_m), known(found.nu_1m_m)};
-    preset.distance =
-        std::hypot(ratio(*at_short, preset.nu_short_m), ratio(*at_long, preset.nu_long_m));
+    Fit(*at_short, *at_long, preset);
     presets.push_back(preset);
   }
   std::ranges::sort(presets, {}, &Preset::distance);
@@ -99,7 +116,8 @@ std::string DraftTerrain(const DraftScenarioOptions& options, const WalkSummary&
                         kMmPerM * presets[i].nu_short_m, kMmPerM * presets[i].nu_long_m,
                         i + 1 < std::min<std::size_t>(3, presets.size()) ? "," : ".");
   return text + "\n# Not known: slope, rocks, friction and stiffness, which are the preset's.\n" +
-         fmt::format("terrain: {{base: {}}}\n", From(options.out, presets.front().file));
+         fmt::format("terrain: {{base: {}, roughness_scale: {:.2f}}}\n",
+                     From(options.out, presets.front().file), presets.front().scale);
 }
 
 std::string DraftOperator(const WalkSummary& walk) {

@@ -17,6 +17,8 @@ namespace scoria::analysis {
 [[nodiscard]] Metrics EnergyMetrics();
 [[nodiscard]] Metrics TimingMetrics();
 [[nodiscard]] Metrics GaitMetrics();
+/// Of the family of energy.
+[[nodiscard]] Metrics EffortMetrics();
 /// Of several families: what needs no truth.
 [[nodiscard]] Metrics FieldMetrics();
 

@@ -70,6 +70,7 @@ TEST(DraftScenario, TakesTheAdaptiveSequencerAndRoughGround) {
   const Scenario twin = LoadScenario(folder.path() / "twin.yaml", {});
   EXPECT_TRUE(std::holds_alternative<controller::AgsParams>(twin.controller.gait)) << text;
   EXPECT_NE(twin.terrain.name, "flat") << text;
+  EXPECT_NEAR(twin.terrain.roughness_scale, 0.8, 0.25) << "the route goes round the roughest";
   EXPECT_GT(twin.controller.swing.apex_m, 0.05);
   EXPECT_LT(twin.controller.swing.apex_m, 0.15);
 }
