@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/statistics/stats.h"
+#include "analysis/statistics/mean.h"
 #include "analysis/study/results.h"
 
 namespace scoria::analysis {

@@ -78,6 +78,8 @@ struct EpisodeMetrics {
   TimeQuantiles mpc, wbc;
   std::optional<double> peak_foot_force_N;
   std::vector<FallEvent> falls;
+  std::optional<double>
+      first_fall_m;  // distance walked before the first fall; of older results none
   EstimationMetrics estimation;
   ModelMetrics model;
   GaitTiming gait;

@@ -160,6 +160,7 @@ void to_json(json& j, const EpisodeMetrics& m) {
        {"mpc", If(m.mpc.count > 0, m.mpc)},
        {"wbc", If(m.wbc.count > 0, m.wbc)},
        {"falls", m.falls},
+       {"first_fall_m", If(had(RowGroup::kTruth), m.first_fall_m)},
        {"peak_foot_force_N", m.peak_foot_force_N},
        {"estimation", m.estimation},
        {"model", m.model},
@@ -186,6 +187,7 @@ void from_json(const json& j, EpisodeMetrics& m) {
   Read(j, "peak_foot_force_N", m.peak_foot_force_N);
   // What follows older results lack.
   if (j.contains("transport_J")) Read(j, "transport_J", m.transport_J);
+  if (j.contains("first_fall_m")) Read(j, "first_fall_m", m.first_fall_m);
   if (j.contains("measured")) j.at("measured").get_to(m.measured);
   if (j.contains("groups")) m.groups = ToGroups(j.at("groups"));
   if (!m.groups) DropZeros(m);

@@ -74,6 +74,7 @@ void MetricsAccumulator::AddEpisode(const logs::Row& row) {
   if (episode.fallen && in_stretch_) DropWindowBefore(row.time_s);
   const bool walking = episode.operating && !episode.fallen;
   if (!walking || episode.segment != segment_) EndStretch();
+  if (episode.fallen) NoteFirstFall();
   if (!walking) return;
   if (row.true_contacts) {
     AddPeakForce(*row.true_contacts);
@@ -172,6 +173,10 @@ void MetricsAccumulator::AddChord(double chord_m, double end_s) {
   chord_mass_kgs_ = 0.0;
 }
 
+void MetricsAccumulator::NoteFirstFall() {
+  if (!metrics_.first_fall_m) metrics_.first_fall_m = metrics_.distance_m;
+}
+
 void MetricsAccumulator::DropWindowBefore(double fall_s) {
   if (!last_window_s_ || fall_s - *last_window_s_ > kBeforeFall_s) return;
   metrics_.windows.pop_back();
@@ -207,6 +212,7 @@ EpisodeMetrics MetricsAccumulator::Finish() {
   // A fall that ends the episode has no row of its own.
   if (in_stretch_ && !metrics_.falls.empty()) DropWindowBefore(metrics_.falls.back().time_s);
   EndStretch();
+  if (!metrics_.falls.empty()) NoteFirstFall();
   CloseBudget();
   EpisodeMetrics m = metrics_;
   m.groups = groups_;

@@ -51,6 +51,7 @@ class MetricsAccumulator {
   void StartSteady(const logs::Row& row);
   void AddChord(double chord_m, double end_s);
   void StartWindow(const logs::Row& row);
+  void NoteFirstFall();
   void DropWindowBefore(double fall_s);
   void EndStretch();
   void CloseBudget();

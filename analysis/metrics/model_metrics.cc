@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/metrics/optional_json.h"
-#include "analysis/statistics/stats.h"
+#include "core/math/quantile.h"
 
 namespace scoria::analysis {
 namespace {
@@ -48,16 +48,16 @@ ModelSummary SummariseModel(const std::vector<ModelInterval>& intervals) {
   }
   s.judged = static_cast<int>(settling_s.size());
   s.used = static_cast<int>(used_kg.size());
-  if (s.used > 0) s.median_used_bias_kg = SampleQuantile(used_kg, 0.5);
-  if (s.judged > 0) s.median_settling_s = SampleQuantile(settling_s, 0.5);
+  if (s.used > 0) s.median_used_bias_kg = core::SampleQuantile(used_kg, 0.5);
+  if (s.judged > 0) s.median_settling_s = core::SampleQuantile(settling_s, 0.5);
   if (s.settled == 0) return s;
   const std::vector<double> biases_kg =
       Collect(intervals, [](const auto& i) { return std::abs(i.bias_kg); });
   const auto median = [&intervals](auto get) {
-    return SampleQuantile(Collect(intervals, get), 0.5);
+    return core::SampleQuantile(Collect(intervals, get), 0.5);
   };
-  s.median_bias_kg = SampleQuantile(biases_kg, 0.5);
-  s.p95_bias_kg = SampleQuantile(biases_kg, 0.95);
+  s.median_bias_kg = core::SampleQuantile(biases_kg, 0.5);
+  s.p95_bias_kg = core::SampleQuantile(biases_kg, 0.95);
   s.median_rmse_kg = median([](const auto& i) { return i.rmse_kg; });
   s.median_com_x_rmse_m = median([](const auto& i) { return i.com_x_rmse_m; });
   s.median_com_y_rmse_m = median([](const auto& i) { return i.com_y_rmse_m; });

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "analysis/plots/gnuplot.h"
-#include "analysis/statistics/stats.h"
+#include "analysis/statistics/cost_curve.h"
 
 namespace scoria::analysis {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "analysis/plots/gnuplot.h"
-#include "analysis/statistics/stats.h"
+#include "analysis/statistics/rate.h"
 
 namespace scoria::analysis {
 

@@ -27,6 +27,9 @@ std::string Quoted(const std::string& text) {
 std::string CsvHeader(const ReportInput& input) {
   std::string header = "id,arm";
   for (const Axis& axis : input.results.axes) header += "," + Quoted(axis.key);
+  if (input.results.design) {
+    for (const Factor& factor : input.results.design->factors) header += "," + Quoted(factor.key);
+  }
   header += ",seed,end";
   for (const Metric& metric : input.metrics) header += fmt::format(",{}", metric.info.key);
   return header + "\n";
@@ -66,14 +69,23 @@ json ToJson(const Cell& c, const Metrics& metrics) {
   return object;
 }
 
+json OrNull(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
+
 json ToJson(const MetricDifference& d) {
   return {{"key", d.metric.key},
-          {"seeds", d.difference.count},
-          {"mean", d.mean},
-          {"first_arm_mean", d.baseline_mean},
-          {"difference", d.difference.mean},
-          {"low", d.difference.interval.low},
-          {"high", d.difference.interval.high},
+          {"seeds", d.pairs.difference.count},
+          {"mean", d.pairs.mean_a},
+          {"first_arm_mean", d.pairs.mean_b},
+          {"difference", d.pairs.difference.mean},
+          {"low", d.pairs.difference.interval.low},
+          {"high", d.pairs.difference.interval.high},
+          {"bootstrap_low", d.pairs.bootstrap ? json(d.pairs.bootstrap->low) : json(nullptr)},
+          {"bootstrap_high", d.pairs.bootstrap ? json(d.pairs.bootstrap->high) : json(nullptr)},
+          {"effect_size", OrNull(d.pairs.effect_size)},
+          {"correlation", OrNull(d.pairs.correlation)},
+          {"p_value", d.pairs.p_value},
+          {"p_holm", d.holm},
+          {"false_discovery_rate", d.false_discovery},
           {"better", core::EnumName(d.metric.better)}};
 }
 
@@ -82,11 +94,21 @@ json ToJson(const Comparison& c, const ArmDifferences& differences) {
   json object = {{"a", c.a},
                  {"b", c.b},
                  {"point", c.point},
-                 {"ratio", c.ratio.ratio},
-                 {"low", c.ratio.interval.low},
-                 {"high", c.ratio.interval.high},
-                 {"p_value", c.ratio.p_value},
-                 {"dispersion", c.dispersion.index},
+                 {"ratio", c.rates.judged.ratio},
+                 {"low", c.rates.judged.interval.low},
+                 {"high", c.rates.judged.interval.high},
+                 {"p_value", c.rates.judged.p_value},
+                 {"p_holm", c.holm},
+                 {"false_discovery_rate", c.false_discovery},
+                 {"p_any_time", c.p_any_time},
+                 {"detectable_ratio", c.detectable},
+                 {"log_rank_p", c.log_rank.p_value},
+                 {"exact_low", c.rates.exact.interval.low},
+                 {"exact_high", c.rates.exact.interval.high},
+                 {"by_terrain_low", c.rates.by_terrain.interval.low},
+                 {"by_terrain_high", c.rates.by_terrain.interval.high},
+                 {"over_dispersed", c.rates.over_dispersed},
+                 {"dispersion", c.rates.dispersion.index},
                  {"verdict", c.verdict},
                  {"metrics", json::array()}};
   for (const MetricDifference& d : differences.metrics) object["metrics"].push_back(ToJson(d));

@@ -33,8 +33,8 @@ Document ComposeReport(const ReportInput& input) {
 }
 
 fs::path WriteReport(const fs::path& folder, const std::optional<ReportPicture>& picture,
-                     const Metrics& metrics) {
-  return WriteReport(MakeReportInput(folder, LoadResults(folder), picture, metrics),
+                     const Metrics& metrics, const TestGoal& goal) {
+  return WriteReport(MakeReportInput(folder, LoadResults(folder), picture, metrics, goal),
                      folder / "report");
 }
 

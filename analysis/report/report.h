@@ -20,7 +20,7 @@ namespace scoria::analysis {
 /// @returns the page. Errors: std::runtime_error, core::FolderInUse, core::FileError.
 std::filesystem::path WriteReport(const std::filesystem::path& folder,
                                   const std::optional<ReportPicture>& picture = std::nullopt,
-                                  const Metrics& metrics = AllMetrics());
+                                  const Metrics& metrics = AllMetrics(), const TestGoal& goal = {});
 
 /// Likewise of what is at hand, into `out`.
 std::filesystem::path WriteReport(const ReportInput& input, const std::filesystem::path& out);

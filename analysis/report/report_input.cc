@@ -34,8 +34,10 @@ Substitutes SubstitutesOf(const CampaignResults& results) {
 }  // namespace
 
 ReportInput MakeReportInput(const std::filesystem::path& folder, CampaignResults results,
-                            std::optional<ReportPicture> picture, const Metrics& metrics) {
+                            std::optional<ReportPicture> picture, const Metrics& metrics,
+                            const TestGoal& goal) {
   ReportInput input;
+  input.goal = goal;
   input.folder = folder;
   input.metrics = metrics;
   input.groups = GroupsOf(results);
@@ -44,7 +46,7 @@ ReportInput MakeReportInput(const std::filesystem::path& folder, CampaignResults
   for (const std::string& arm : results.arms)
     input.pooled.push_back(PoolCell(results, arm, {}, metrics));
   if (results.arms.size() > 1) {
-    input.comparisons = AllComparisons(results);
+    input.comparisons = AllComparisons(results, goal);
     input.differences = AllDifferences(results, metrics);
   }
   input.picture = std::move(picture);

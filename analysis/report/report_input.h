@@ -24,6 +24,7 @@ struct ReportInput {
   std::optional<logs::RowGroups> groups;    // that some episode's rows had; unknown: older results
   Substitutes substitutes;                  // for groups that the logs of robots lack
   std::optional<ReportPicture> picture;
+  TestGoal goal;  // of what the budget could see
 
   /// Some episode has numbers.
   [[nodiscard]] bool HasMetrics() const;
@@ -33,6 +34,7 @@ struct ReportInput {
 [[nodiscard]] ReportInput MakeReportInput(const std::filesystem::path& folder,
                                           CampaignResults results,
                                           std::optional<ReportPicture> picture,
-                                          const Metrics& metrics = AllMetrics());
+                                          const Metrics& metrics = AllMetrics(),
+                                          const TestGoal& goal = {});
 
 }  // namespace scoria::analysis

@@ -28,6 +28,11 @@ std::string NumberText(std::optional<double> value, int digits) {
   return value && std::isfinite(*value) ? fmt::format("{:.{}f}", *value, digits) : "–";
 }
 
+std::string PValueText(double p) {
+  constexpr double kLeast = 1e-4;
+  return p < kLeast ? "< 0.0001" : fmt::format("{:.{}f}", p, p < 0.01 ? 4 : 3);
+}
+
 std::string ShareText(std::uint64_t part, std::uint64_t whole, int digits) {
   return NumberText(When(whole > 0, 100.0 * static_cast<double>(part) / static_cast<double>(whole)),
                     digits);

@@ -60,6 +60,9 @@ using ArmCounts = std::map<std::string, std::map<std::string, std::uint64_t>>;
 /// A dash for nothing and for what is not finite.
 [[nodiscard]] std::string NumberText(std::optional<double> value, int digits);
 
+/// "0.032", "< 0.0001".
+[[nodiscard]] std::string PValueText(double p);
+
 /// In per cent, without the sign.
 [[nodiscard]] std::string ShareText(std::uint64_t part, std::uint64_t whole, int digits);
 

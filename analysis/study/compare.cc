@@ -9,7 +9,11 @@
 
 #include <fmt/format.h>
 
+#include "analysis/statistics/multiplicity.h"
+#include "analysis/statistics/sequential_sign_test.h"
 #include "analysis/study/fall_groups.h"
+#include "analysis/study/lifetimes.h"
+#include "analysis/study/verdicts.h"
 
 namespace scoria::analysis {
 namespace {
@@ -28,49 +32,6 @@ RateEstimate PoolFalls(const CampaignResults& results, const std::string& arm,
     metres += e.metrics.distance_m;
   }
   return EstimateRate(falls, metres);
-}
-
-std::string Verdict(const Comparison& c, const std::string& where) {
-  for (const auto& [arm, falls] : {std::pair(c.a, c.falls_a), std::pair(c.b, c.falls_b)}) {
-    if (falls.exposure <= 0.0)
-      return fmt::format("{}: falls of {} and {} are not compared: {} has no metres.", where, c.a,
-                         c.b, arm);
-  }
-  const long total = c.falls_a.events + c.falls_b.events;
-  if (total == 0) {
-    return fmt::format(
-        "{}: neither {} nor {} fell; a rate below one fall per {:.0f} m is all that can be said.",
-        where, c.a, c.b, 1.0 / c.falls_a.interval.high);
-  }
-  // Terrains that treat the arms differently widen the exact interval; nothing ever narrows it.
-  constexpr std::size_t kEnoughTerrains = 6;
-  const bool spread = c.dispersion.p_value < 0.05 && c.terrains >= kEnoughTerrains;
-  Interval interval = c.ratio.interval;
-  if (spread)
-    interval = {std::min(interval.low, c.bootstrap.low), std::max(interval.high, c.bootstrap.high)};
-  const auto times = [](long n) {
-    return n == 1 ? std::string("once") : fmt::format("{} times", n);
-  };
-  const std::string counts =
-      fmt::format("{} fell {} in {:.0f} m, {} {} in {:.0f} m", c.a, times(c.falls_a.events),
-                  c.falls_a.exposure, c.b, times(c.falls_b.events), c.falls_b.exposure);
-  const std::string places = c.places.empty() ? "" : fmt::format("; {}", c.places);
-  const auto number = [](double x) {
-    return std::isinf(x) ? std::string("∞") : fmt::format("{:.2f}", x);
-  };
-  const std::string range =
-      fmt::format("rate ratio {} (95 %: {} to {}{})", number(c.ratio.ratio), number(interval.low),
-                  number(interval.high), spread ? ", by terrain, which differ" : "");
-  if (interval.high < 1.0)
-    return fmt::format("{}: {} falls less than {}: {}, {}{}.", where, c.a, c.b, counts, range,
-                       places);
-  if (interval.low > 1.0)
-    return fmt::format("{}: {} falls more than {}: {}, {}{}.", where, c.a, c.b, counts, range,
-                       places);
-  return fmt::format(
-      "{}: no difference shown between {} and {}: {}, {}; this budget would have seen a ratio of "
-      "{}{}.",
-      where, c.a, c.b, counts, range, number(c.detectable), places);
 }
 
 /// By seed: a seed is a terrain, shared by the arms.
@@ -94,6 +55,29 @@ std::vector<PairedCounts> CountByTerrain(const CampaignResults& results, const s
     if (pair.exposure_a > 0.0 && pair.exposure_b > 0.0) terrains.push_back(pair);
   }
   return terrains;
+}
+
+/// In the order of the seeds, which is that of a campaign.
+double TestAnyTime(const std::vector<PairedCounts>& terrains) {
+  SequentialSignTest test;
+  for (const PairedCounts& terrain : terrains) test.Add(ExcessOfA(terrain));
+  return test.evidence().p_value();
+}
+
+/// Those over the whole sweep are one family of tests, those at its points another.
+void AdjustForMany(std::vector<Comparison>& all, bool whole_sweep) {
+  std::vector<Comparison*> family;
+  std::vector<double> p;
+  for (Comparison& c : all) {
+    if (c.point.empty() != whole_sweep) continue;
+    family.push_back(&c);
+    p.push_back(c.rates.judged.p_value);
+  }
+  const std::vector<double> holm = AdjustHolm(p), false_discovery = AdjustFalseDiscovery(p);
+  for (std::size_t i = 0; i < family.size(); ++i) {
+    family[i]->holm = holm[i];
+    family[i]->false_discovery = false_discovery[i];
+  }
 }
 
 }  // namespace
@@ -170,25 +154,23 @@ std::size_t CountGrounds(const CampaignResults& results, const std::vector<std::
 }
 
 Comparison Compare(const CampaignResults& results, const std::string& a, const std::string& b,
-                   const std::vector<std::string>& point) {
+                   const std::vector<std::string>& point, const TestGoal& goal) {
   Comparison c;
   c.a = a;
   c.b = b;
   c.point = point;
   c.falls_a = PoolFalls(results, a, point);
   c.falls_b = PoolFalls(results, b, point);
-  c.ratio = EstimateRateRatio(c.falls_a, c.falls_b);
   const std::vector<PairedCounts> terrains = CountByTerrain(results, a, b, point);
-  constexpr std::uint64_t kBootstrapSeed = 20251017;
   c.terrains = terrains.size();
-  c.dispersion = CheckShares(terrains);
-  c.bootstrap = BootstrapRateRatio(terrains, kBootstrapSeed);
-  const double lower_rate = std::min(c.falls_a.rate, c.falls_b.rate);
-  const double reference = lower_rate > 0.0 ? lower_rate : std::max(c.falls_a.rate, c.falls_b.rate);
-  c.detectable = DetectableRatio(reference, std::min(c.falls_a.exposure, c.falls_b.exposure));
+  c.rates = CompareRates(c.falls_a, c.falls_b, terrains);
+  c.p_any_time = TestAnyTime(terrains);
+  c.log_rank = CompareLifetimes(results, a, b, point);
+  c.detectable = DetectableRatio(LowerRate(c), std::min(c.falls_a.exposure, c.falls_b.exposure),
+                                 goal, c.rates.over_dispersed ? c.rates.dispersion.index : 1.0);
   c.places =
       DescribeGroups(GroupFalls(results, {a, b}, point), CountGrounds(results, {a, b}, point));
-  c.verdict = Verdict(c, point.empty() ? "Whole sweep" : PointName(results.axes, point));
+  c.verdict = FallVerdict(c, point.empty() ? "Whole sweep" : PointName(results.axes, point));
   return c;
 }
 
@@ -209,13 +191,24 @@ std::vector<std::vector<std::string>> SweepAndPoints(const std::vector<Axis>& ax
   return points;
 }
 
-std::vector<Comparison> AllComparisons(const CampaignResults& results) {
+std::vector<Comparison> AllComparisons(const CampaignResults& results, const TestGoal& goal) {
   std::vector<Comparison> all;
   for (const auto& point : SweepAndPoints(results.axes)) {
     for (std::size_t a = 1; a < results.arms.size(); ++a)
-      all.push_back(Compare(results, results.arms[0], results.arms[a], point));
+      all.push_back(Compare(results, results.arms[0], results.arms[a], point, goal));
   }
+  AdjustForMany(all, true);
+  AdjustForMany(all, false);
   return all;
+}
+
+double LowerRate(const Comparison& c) noexcept {
+  const double lower = std::min(c.falls_a.rate, c.falls_b.rate);
+  return lower > 0.0 ? lower : std::max(c.falls_a.rate, c.falls_b.rate);
+}
+
+bool ShowsDifference(const Comparison& c) noexcept {
+  return !c.rates.judged.interval.Contains(1.0);
 }
 
 }  // namespace scoria::analysis

@@ -6,7 +6,10 @@
 #include <vector>
 
 #include "analysis/metrics/registry.h"
-#include "analysis/statistics/stats.h"
+#include "analysis/statistics/log_rank.h"
+#include "analysis/statistics/mean.h"
+#include "analysis/statistics/power.h"
+#include "analysis/statistics/rate_comparison.h"
 #include "analysis/study/results.h"
 
 namespace scoria::analysis {
@@ -32,16 +35,25 @@ struct Comparison {
   std::string a, b;
   std::vector<std::string> point;
   RateEstimate falls_a, falls_b;  // per metre
-  RatioEstimate ratio;            // of falls per metre, a over b
+  RateComparison rates;           // of falls per metre, a over b
   std::size_t terrains = 0;       // walked by both
-  Dispersion dispersion;          // across terrains, of a's share of the falls
-  Interval bootstrap;             // of the ratio, by terrain
-  double detectable = 0.0;        // smallest ratio that this budget could see
-  std::string places;             // in how many groups the falls of both lie (DescribeGroups)
-  std::string verdict;            // one sentence
+  /// p-values adjusted for the comparisons of the same kind: those over the whole sweep, or those
+  /// at its points.
+  double holm = 1.0, false_discovery = 1.0;
+  /// Valid whenever one looks: SequentialSignTest over the terrains, by rising seed.
+  double p_any_time = 1.0;
+  LogRank log_rank;         // of the metres to the first fall
+  double detectable = 0.0;  // smallest ratio that this budget could see
+  std::string places;       // in how many groups the falls of both lie (DescribeGroups)
+  std::string verdict;      // one sentence
 };
+/// @param goal  of what the budget could see.
 [[nodiscard]] Comparison Compare(const CampaignResults& results, const std::string& a,
-                                 const std::string& b, const std::vector<std::string>& point);
+                                 const std::string& b, const std::vector<std::string>& point,
+                                 const TestGoal& goal = {});
+
+/// The lower of two rates by which falls are expected, per metre; the other where it is zero.
+[[nodiscard]] double LowerRate(const Comparison& c) noexcept;
 
 /// Grounds that arms walked at a point (empty: over the whole sweep).
 [[nodiscard]] std::size_t CountGrounds(const CampaignResults& results,
@@ -73,6 +85,10 @@ struct Comparison {
                            const std::vector<std::string>& point);
 
 /// Every arm against the first, over the whole sweep and at each of its points.
-[[nodiscard]] std::vector<Comparison> AllComparisons(const CampaignResults& results);
+[[nodiscard]] std::vector<Comparison> AllComparisons(const CampaignResults& results,
+                                                     const TestGoal& goal = {});
+
+/// Whether the interval of the ratio leaves out 1.
+[[nodiscard]] bool ShowsDifference(const Comparison& c) noexcept;
 
 }  // namespace scoria::analysis

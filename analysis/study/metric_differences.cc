@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "analysis/statistics/multiplicity.h"
 #include "analysis/study/compare.h"
 
 namespace scoria::analysis {
@@ -22,8 +23,7 @@ using EpisodePairs = std::map<std::uint64_t, std::vector<EpisodePair>>;
 
 /// A seed's episodes at different points are no independent pairs: their mean is one value.
 MetricDifference CompareMetric(const MetricInfo& metric, const EpisodePairs& pairs) {
-  MetricDifference d{metric, 0.0, 0.0, {}};
-  std::vector<double> arm_means, baseline_means, differences;
+  std::vector<double> arm_means, baseline_means;
   for (const auto& [seed, episodes] : pairs) {
     double arm = 0.0, baseline = 0.0, count = 0.0;
     for (const EpisodePair& pair : episodes) {
@@ -36,20 +36,34 @@ MetricDifference CompareMetric(const MetricInfo& metric, const EpisodePairs& pai
     if (count == 0.0) continue;
     arm_means.push_back(arm / count);
     baseline_means.push_back(baseline / count);
-    differences.push_back((arm - baseline) / count);
   }
-  d.mean = EstimateMean(arm_means).mean;
-  d.baseline_mean = EstimateMean(baseline_means).mean;
-  d.difference = EstimateMean(differences);
-  return d;
+  constexpr std::uint64_t kBootstrapSeed = 20251017;
+  return {metric, EstimateDifference(arm_means, baseline_means, kBootstrapSeed)};
+}
+
+/// The metrics that can be better or worse are one family of tests.
+void AdjustForMany(std::vector<MetricDifference>& metrics) {
+  std::vector<MetricDifference*> family;
+  std::vector<double> p;
+  for (MetricDifference& d : metrics) {
+    if (d.metric.better == Better::kNeither || d.pairs.difference.count < 2) continue;
+    family.push_back(&d);
+    p.push_back(d.pairs.p_value);
+  }
+  const std::vector<double> holm = AdjustHolm(p), false_discovery = AdjustFalseDiscovery(p);
+  for (std::size_t i = 0; i < family.size(); ++i) {
+    family[i]->holm = holm[i];
+    family[i]->false_discovery = false_discovery[i];
+  }
 }
 
 }  // namespace
 
 Judgement Judge(const MetricDifference& d) noexcept {
   if (d.metric.better == Better::kNeither) return Judgement::kNoDirection;
-  const bool less = d.difference.interval.high<0.0, more = d.difference.interval.low> 0.0;
-  if (d.difference.count < 2 || (!less && !more)) return Judgement::kNoneShown;
+  const MeanEstimate& e = d.pairs.difference;
+  const bool less = e.interval.high<0.0, more = e.interval.low> 0.0;
+  if (e.count < 2 || (!less && !more)) return Judgement::kNoneShown;
   return less == (d.metric.better == Better::kLower) ? Judgement::kBetter : Judgement::kWorse;
 }
 
@@ -82,8 +96,9 @@ ArmDifferences MetricComparer::Compare(const std::string& arm, const std::string
   ArmDifferences all{arm, baseline, point, {}};
   for (const Metric& metric : metrics_) {
     MetricDifference d = CompareMetric(metric.info, pairs);
-    if (d.difference.count > 0) all.metrics.push_back(std::move(d));
+    if (d.pairs.difference.count > 0) all.metrics.push_back(std::move(d));
   }
+  AdjustForMany(all.metrics);
   return all;
 }
 

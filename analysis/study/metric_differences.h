@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "analysis/metrics/registry.h"
-#include "analysis/statistics/stats.h"
+#include "analysis/statistics/paired_difference.h"
 #include "analysis/study/results.h"
 
 namespace scoria::analysis {
@@ -15,9 +15,10 @@ namespace scoria::analysis {
 /// A metric of an arm against that of a baseline, in pairs of the same seed and point.
 struct MetricDifference {
   MetricInfo metric;
-  // Means over the seeds that have pairs, of the seeds' means over the sweep.
-  double mean = 0.0, baseline_mean = 0.0;
-  MeanEstimate difference;  // arm minus baseline, over seeds
+  /// Arm (a) minus baseline (b) over the seeds that have pairs, of the seeds' means over the sweep.
+  PairedDifference pairs;
+  /// p-values adjusted for the metrics of the comparison that have a better direction; 1 of others.
+  double holm = 1.0, false_discovery = 1.0;
 };
 
 /// What a difference says: its interval lies on one side of zero, or not.

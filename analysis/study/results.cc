@@ -91,6 +91,7 @@ CampaignResults ReadIndex(const fs::path& file) {
                               axis.at("values").get<std::vector<std::string>>(),
                               axis.value("baseline", "")});  // not in older results
     }
+    if (j.contains("design")) results.design = DesignFromJson(j.at("design"));
     for (const json& e : j.at("episodes")) {
       EpisodeRecord& episode = results.episodes.emplace_back();
       e.at("id").get_to(episode.id);

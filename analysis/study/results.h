@@ -3,10 +3,12 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "analysis/metrics/episode_metrics.h"
+#include "analysis/study/design.h"
 #include "analysis/study/field_log.h"
 #include "terrains/generator.h"
 
@@ -42,6 +44,7 @@ struct CampaignResults {
   std::string name;
   std::vector<std::string> arms;
   std::vector<Axis> axes;
+  std::optional<Design> design;  // in place of axes: points of episodes are of it
   std::vector<EpisodeRecord> episodes;
   bool single_run = false;
   std::vector<FieldLog> logs;  // of robots, of which the episodes are parts; none of simulations

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "analysis/statistics/sobol_indices.h"
 #include "app/campaign/campaign_file.h"
 #include "app/scenario/config_kinds.h"
 #include "app/scenario/observable.h"
@@ -56,36 +57,99 @@ CampaignAxis MakeAxis(const AxisFile& file, const ConfigNode& node, std::size_t 
   return axis;
 }
 
-/// Every combination of the axes' values, by index.
-void AddJobs(const Campaign& campaign, const CampaignArm& arm, std::vector<std::size_t>& point,
-             std::vector<CampaignJob>& jobs) {
-  if (point.size() < campaign.sweep.size()) {
-    for (std::size_t i = 0; i < campaign.sweep[point.size()].names.size(); ++i) {
-      point.push_back(i);
-      AddJobs(campaign, arm, point, jobs);
-      point.pop_back();
-    }
-    return;
+analysis::Design MakeDesign(const DesignFile& file, const ConfigNode& node) {
+  std::vector<analysis::Factor> factors;
+  std::set<std::string> keys;
+  for (std::size_t i = 0; i < file.factors.size(); ++i) {
+    const FactorFile& f = file.factors[i];
+    const ConfigNode& at = node.Find("factors")->items[i];
+    const std::string path = fmt::format("sweep.factors[{}]", i);
+    if (!keys.insert(f.key).second)
+      throw ConfigError(at.origin, path + ".key", fmt::format("{}: is a factor already", f.key));
+    if (!(f.from < f.to))
+      throw ConfigError(at.origin, path + ".to", fmt::format("{} is not above {}", f.to, f.from));
+    if (f.scale == analysis::FactorScale::kLog && f.from <= 0.0)
+      throw ConfigError(at.origin, path + ".from", "must be above 0 on a logarithmic scale");
+    factors.push_back({f.key, f.label.empty() ? f.key : f.label, f.from, f.to, f.scale});
   }
+  if (factors.empty())
+    throw ConfigError(node.origin, "sweep.factors", "must list at least one factor");
+  const std::size_t least = analysis::PointsPerRow(factors.size());
+  if (static_cast<std::size_t>(file.points) < least)
+    throw ConfigError(node.origin, "sweep.points",
+                      fmt::format("{} factors need at least {}", factors.size(), least));
+  return analysis::MakeDesign(file.design, std::move(factors),
+                              static_cast<std::size_t>(file.points), file.seed);
+}
+
+/// The design that stands in place of a list of axes, taken out of the campaign's file.
+std::optional<analysis::Design> TakeDesign(ConfigNode& campaign) {
+  const ConfigNode* sweep = campaign.Find("sweep");
+  if (sweep == nullptr || sweep->kind != ConfigNode::Kind::kMap) return std::nullopt;
+  core::ConfigContext context;
+  DesignFile file;
+  core::ConfigReader::Read(*sweep, "sweep", context, file);
+  analysis::Design design = MakeDesign(file, *sweep);
+  std::erase_if(campaign.entries, [](const ConfigNode::Entry& e) { return e.key == "sweep"; });
+  return design;
+}
+
+/// What a point of the sweep changes in the scenario.
+struct SweepPoint {
+  std::vector<std::string> values;  // as jobs name them
+  std::string name;                 // in folders
+  std::vector<ConfigNode> sets;
+};
+
+/// Every combination of the axes' values.
+std::vector<SweepPoint> CrossAxes(const std::vector<CampaignAxis>& axes) {
+  std::vector<SweepPoint> points = {{}};
+  for (const CampaignAxis& axis : axes) {
+    std::vector<SweepPoint> longer;
+    for (const SweepPoint& point : points) {
+      for (std::size_t i = 0; i < axis.names.size(); ++i) {
+        longer.push_back(point);
+        longer.back().values.push_back(axis.names[i]);
+        longer.back().name += "-" + axis.names[i];
+        longer.back().sets.push_back(axis.sets[i]);
+      }
+    }
+    points = std::move(longer);
+  }
+  return points;
+}
+
+std::vector<SweepPoint> PointsOf(const analysis::Design& design) {
+  std::vector<SweepPoint> points;
+  for (const std::vector<std::string>& values : design.points) {
+    SweepPoint& point = points.emplace_back();
+    point.values = values;
+    point.name = fmt::format("-p{}", points.size());
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      ConfigNode& set = point.sets.emplace_back();
+      set.kind = ConfigNode::Kind::kMap;
+      core::SetAt(set, design.factors[k].key, {ConfigNode::Kind::kScalar, values[k], {}, {}, {}});
+    }
+  }
+  return points;
+}
+
+void AddJobs(const Campaign& campaign, const CampaignArm& arm, const SweepPoint& point,
+             std::vector<CampaignJob>& jobs) {
   ConfigNode node = campaign.scenario;
   if (arm.set.kind == ConfigNode::Kind::kMap) core::MergeConfig(node, arm.set);
-  for (std::size_t i = 0; i < point.size(); ++i) {
-    const ConfigNode& set = campaign.sweep[i].sets[point[i]];
+  for (const ConfigNode& set : point.sets) {
     if (set.kind == ConfigNode::Kind::kMap) core::MergeConfig(node, set);
   }
   const Scenario read = ReadScenario(node);
   for (int k = 0; k < campaign.seeds; ++k) {
-    Scenario scenario = read;
     CampaignJob job;
+    job.scenario = read;
     job.arm = arm.name;
-    job.seed = scenario.seed = campaign.first_seed + static_cast<std::uint64_t>(k);
-    std::string name = arm.name;
-    for (std::size_t i = 0; i < point.size(); ++i) {
-      job.point.push_back(campaign.sweep[i].names[point[i]]);
-      name += "-" + job.point.back();
-    }
-    job.id = scenario.name = fmt::format("{}-s{}", core::FileNameOf(name), job.seed);
-    job.scenario = std::move(scenario);
+    job.point = point.values;
+    job.seed = job.scenario.seed = campaign.first_seed + static_cast<std::uint64_t>(k);
+    job.id = job.scenario.name =
+        fmt::format("{}-s{}", core::FileNameOf(arm.name + point.name), job.seed);
     jobs.push_back(std::move(job));
   }
 }
@@ -119,10 +183,11 @@ void CheckExpected(const Campaign& campaign, const ConfigNode& node) {
 }  // namespace
 
 std::vector<CampaignJob> Plan(const Campaign& campaign) {
+  const std::vector<SweepPoint> points =
+      campaign.design ? PointsOf(*campaign.design) : CrossAxes(campaign.sweep);
   std::vector<CampaignJob> jobs;
   for (const CampaignArm& arm : campaign.arms) {
-    std::vector<std::size_t> point;
-    AddJobs(campaign, arm, point, jobs);
+    for (const SweepPoint& point : points) AddJobs(campaign, arm, point, jobs);
   }
   std::set<std::string> ids;
   for (const CampaignJob& job : jobs) {
@@ -137,7 +202,8 @@ std::vector<CampaignJob> Plan(const Campaign& campaign) {
 }
 
 Campaign LoadCampaign(const fs::path& file, const std::vector<std::string>& overrides) {
-  const ConfigNode node = LoadKind("campaign", file, overrides);
+  ConfigNode node = LoadKind("campaign", file, overrides);
+  const std::optional<analysis::Design> design = TakeDesign(node);
   const auto read = core::ReadConfig<CampaignFile>(node);
   if (read.arms.empty())
     throw ConfigError(node.Find("arms")->origin, "arms", "must list at least one arm");
@@ -149,9 +215,11 @@ Campaign LoadCampaign(const fs::path& file, const std::vector<std::string>& over
   campaign.first_seed = read.first_seed;
   campaign.seeds = read.seeds;
   campaign.expect = read.expect;
+  campaign.design = design;
   for (const ArmFile& arm : read.arms) campaign.arms.push_back(ToArm(arm));
+  const ConfigNode* sweep = node.Find("sweep");
   for (std::size_t i = 0; i < read.sweep.size(); ++i)
-    campaign.sweep.push_back(MakeAxis(read.sweep[i], node.Find("sweep")->items[i], i));
+    campaign.sweep.push_back(MakeAxis(read.sweep[i], sweep->items[i], i));
   CheckExpected(campaign, node);
   std::set<std::string> notes;
   for (const CampaignJob& job : Plan(campaign))  // checks every scenario

@@ -4,9 +4,11 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "analysis/study/design.h"
 #include "app/scenario/scenario.h"
 #include "core/config/archive.h"
 
@@ -26,8 +28,8 @@ struct CampaignAxis {
   std::string baseline;                // name that the report compares the others with, or empty
 };
 
-/// arms x sweep x seeds over one scenario. Arms share seeds, so that they walk the same ground
-/// (paired).
+/// arms x sweep x seeds over one scenario; in place of a sweep there may be a design. Arms share
+/// seeds, so that they walk the same ground (paired).
 struct Campaign {
   std::string name;
   std::filesystem::path file;          // that it was read from, as it was named
@@ -35,6 +37,7 @@ struct Campaign {
   core::ConfigNode scenario;
   std::vector<CampaignArm> arms;
   std::vector<CampaignAxis> sweep;
+  std::optional<analysis::Design> design;
   std::uint64_t first_seed = 1;
   int seeds = 3;
   ArmExpectations expect;
@@ -48,7 +51,7 @@ struct Campaign {
 /// One episode of a campaign.
 struct CampaignJob {
   std::string id, arm;             // id: its folder's name
-  std::vector<std::string> point;  // value per axis
+  std::vector<std::string> point;  // value per axis, or per factor
   std::uint64_t seed = 0;
   Scenario scenario;
 };

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "analysis/study/design.h"
 #include "app/scenario/expectation.h"
 #include "core/config/archive.h"
 
@@ -34,12 +36,45 @@ struct AxisFile {
   }
 };
 
+struct FactorFile {
+  std::string key, label;
+  double from = 0.0, to = 1.0;
+  analysis::FactorScale scale = analysis::FactorScale::kLinear;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Required("key", key, {.doc = "of the scenario, a number"});
+    a.Field("label", label, {.doc = "in figures and tables; empty: the key"});
+    a.Required("from", from);
+    a.Required("to", to);
+    a.Field("scale", scale, {.doc = "even in the number, or in its logarithm"});
+  }
+};
+
+/// What `sweep` is in place of a list of axes: a design over ranges of several keys.
+struct DesignFile {
+  analysis::DesignKind design = analysis::DesignKind::kSobol;
+  int points = 128;
+  std::uint64_t seed = 1;
+  std::vector<FactorFile> factors;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Field("design", design, {.doc = "in place of axes: how points are spread over the factors"});
+    a.Field("points", points,
+            {.min = 3,
+             .max = 1000000,
+             .doc = "at most; whole rows of two more points than there are factors, which total "
+                    "effects need"});
+    a.Field("seed", seed, {.doc = "of the points"});
+    a.Field("factors", factors);
+  }
+};
+
 /// A campaign's YAML file.
 struct CampaignFile {
   std::string name;
   core::ConfigMap scenario;
   std::vector<ArmFile> arms;
-  std::vector<AxisFile> sweep;
+  std::vector<AxisFile> sweep;  // none where there is a design
   std::uint64_t first_seed = 1;
   int seeds = 3;
   ArmExpectations expect;
@@ -48,7 +83,7 @@ struct CampaignFile {
     a.Required("name", name);
     a.Required("scenario", scenario, {.doc = "usually base: ../scenarios/NAME.yaml"});
     a.Required("arms", arms, {.doc = "what is compared"});
-    a.Field("sweep", sweep, {.doc = "every arm walks every combination"});
+    a.Field("sweep", sweep, {.doc = "every arm walks every combination; or a design"});
     a.Field("first_seed", first_seed, {.doc = "master seed of the first episode"});
     a.Field("seeds", seeds, {.min = 1, .max = 100000, .doc = "episodes per arm and combination"});
     a.Field("expect", expect,

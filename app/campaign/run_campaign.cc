@@ -124,6 +124,7 @@ void WriteIndex(const Campaign& campaign, const std::vector<CampaignJob>& jobs,
                               {"values", axis.names},
                               {"baseline", axis.baseline}});
   }
+  if (campaign.design) index["design"] = analysis::ToJson(*campaign.design);
   for (const CampaignJob& job : jobs) {
     index["episodes"].push_back(
         {{"id", job.id}, {"arm", job.arm}, {"point", job.point}, {"seed", job.seed}});

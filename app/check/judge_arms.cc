@@ -6,7 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "analysis/statistics/stats.h"
+#include "analysis/statistics/mean.h"
+#include "analysis/statistics/rate_ratio.h"
 
 namespace scoria::app {
 namespace {

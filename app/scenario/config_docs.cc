@@ -157,6 +157,8 @@ std::string ConfigMarkdown() {
   AddRows(core::DescribeConfig<Scenario>().children, "", out);
   out += fmt::format("\n# Campaign keys\n\n{}", kHeader);
   AddRows(core::DescribeConfig<CampaignFile>().children, "", out);
+  out += fmt::format("\nA design in place of a list of axes:\n\n{}", kHeader);
+  AddRows(core::DescribeConfig<DesignFile>().children, "sweep.", out);
   out += fmt::format(
       "\n# Mapping keys\n\nOf mappings from recorded messages to rows; "
       "[mappings.md](mappings.md) explains them. A source is the path of a field or "
@@ -174,8 +176,11 @@ std::string ConfigJsonSchema(std::string_view kind) {
       std::find_if(kinds.begin(), kinds.end(), [&](const ConfigKind& k) { return k.name == kind; });
   SCORIA_DEMAND(found != kinds.end(), "{}", kind);
   json schema = Schema(found->describe());
-  if (kind == "campaign")
+  if (kind == "campaign") {
     schema["$defs"]["scenario"] = ObjectSchema(core::DescribeConfig<Scenario>().children);
+    json& sweep = schema["properties"]["sweep"];
+    sweep = {{"anyOf", {sweep, Schema(core::DescribeConfig<DesignFile>())}}};
+  }
   schema["$schema"] = "https://json-schema.org/draft/2020-12/schema";
   schema["title"] = fmt::format("scoria {}", kind);
   return analysis::JsonText(schema);

@@ -31,10 +31,10 @@ std::optional<std::string> WhyNot(const ReportInput& input) {
 void AppendCells(const ArmDifferences& d, const MetricInfo& info, std::vector<std::string>& row) {
   const MetricDifference* found = d.Find(info.key);
   row.push_back(found == nullptr ? "–"
-                                 : fmt::format("{} / {}", ShownNumber(info, found->mean),
-                                               ShownNumber(info, found->baseline_mean)));
-  row.push_back(found == nullptr ? "–"
-                                 : FormatDifference(found->difference, info.scale, info.digits));
+                                 : fmt::format("{} / {}", ShownNumber(info, found->pairs.mean_a),
+                                               ShownNumber(info, found->pairs.mean_b)));
+  row.push_back(
+      found == nullptr ? "–" : FormatDifference(found->pairs.difference, info.scale, info.digits));
 }
 
 Blocks Build(const ReportInput& input) {
@@ -44,7 +44,7 @@ Blocks Build(const ReportInput& input) {
     const MetricDifference* height = d.Find(kShown.front());
     table.rows.push_back({PointName(input.results.axes, d.point),
                           fmt::format("{} against {}", d.arm, d.baseline),
-                          std::to_string(height->difference.count)});
+                          std::to_string(height->pairs.difference.count)});
   }
   for (const std::string_view key : kShown) {
     const Metric* metric = FindMetric(input.metrics, key);

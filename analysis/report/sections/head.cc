@@ -10,9 +10,20 @@
 #include "analysis/report/metric_table.h"
 #include "analysis/report/table.h"
 #include "analysis/study/fall_groups.h"
+#include "analysis/study/verdicts.h"
 
 namespace scoria::analysis {
 namespace {
+
+/// " over 125 points of speed (0.3 to 0.6) and slope (0 to 0.2)".
+std::string DesignText(const Design& design) {
+  std::string text = fmt::format(" over {} points of ", design.points.size());
+  for (std::size_t k = 0; k < design.factors.size(); ++k) {
+    const Factor& f = design.factors[k];
+    text += fmt::format("{}{} ({} to {})", k > 0 ? " and " : "", f.label, f.from, f.to);
+  }
+  return text;
+}
 
 /// "a, b over speed (0.3, 0.6): 12 episodes, 600 m walked, 4 falls."
 std::string Summary(const ReportInput& input) {
@@ -22,6 +33,7 @@ std::string Summary(const ReportInput& input) {
     sweep += fmt::format("{}{} ({})", sweep.empty() ? " over " : " and ", axis.label,
                          fmt::join(axis.values, ", "));
   }
+  if (results.design) sweep = DesignText(*results.design);
   const std::string walked =
       results.logs.empty()
           ? fmt::format("{}{}: {} episodes", fmt::join(results.arms, ", "), sweep,
@@ -49,17 +61,39 @@ constexpr std::array<Column<Cell>, 4> kArmColumns = {{
     {"metres per fall", [](const Cell& c) { return MetresPerFall(c); }},
 }};
 
-/// What the budget could see, and where the falls lie.
+/// Over the whole sweep.
+std::vector<Comparison> Pooled(const ReportInput& input) {
+  std::vector<Comparison> pooled = input.comparisons;
+  std::erase_if(pooled, [](const Comparison& c) { return !c.point.empty(); });
+  return pooled;
+}
+
+/// Those that show something each, the others in one sentence.
+BulletList Verdicts(const ReportInput& input) {
+  BulletList verdicts;
+  const std::vector<Comparison> pooled = Pooled(input);
+  for (const Comparison& c : pooled) {
+    if (ShowsDifference(c)) verdicts.items.push_back(c.verdict);
+  }
+  const std::string none = NoEvidenceVerdict(pooled, "Whole sweep");
+  if (!none.empty()) verdicts.items.push_back(none);
+  return verdicts;
+}
+
+/// What the budget could see, metrics, and where the falls lie.
 std::vector<std::string> Facts(const ReportInput& input) {
   std::vector<std::string> facts;
   double detectable = std::numeric_limits<double>::infinity();
-  for (const Comparison& c : input.comparisons) {
-    if (c.point.empty()) detectable = std::min(detectable, c.detectable);
-  }
+  for (const Comparison& c : Pooled(input)) detectable = std::min(detectable, c.detectable);
   if (detectable < std::numeric_limits<double>::infinity()) {
     facts.push_back(fmt::format(
-        "Smallest effect that this budget sees: a rate ratio of {:.2f} (power 80 %, level 5 %).",
-        detectable));
+        "Smallest effect that this budget sees: a rate ratio of {:.2f} (power {:.0f} %, level {:g} "
+        "%).",
+        detectable, 100.0 * input.goal.power, 100.0 * input.goal.alpha));
+  }
+  for (const ArmDifferences& d : input.differences) {
+    const std::string verdict = d.point.empty() ? MetricVerdict(d) : "";
+    if (!verdict.empty()) facts.push_back(verdict);
   }
   const std::vector<FallGroup> groups = GroupFalls(input.results);
   if (!groups.empty()) {
@@ -76,10 +110,7 @@ std::vector<std::string> Facts(const ReportInput& input) {
 DocumentHead BuildHead(const ReportInput& input) {
   DocumentHead head;
   head.text.push_back(Paragraph{Summary(input)});
-  BulletList verdicts;
-  for (const Comparison& c : input.comparisons) {
-    if (c.point.empty()) verdicts.items.push_back(c.verdict);
-  }
+  const BulletList verdicts = Verdicts(input);
   if (!verdicts.items.empty()) {
     head.text.push_back(Heading{"Who falls less"});
     head.text.push_back(verdicts);
@@ -95,7 +126,7 @@ DocumentHead BuildHead(const ReportInput& input) {
 Note VerdictNote() {
   return {
       "Ratios of falls per metre with exact intervals (conditional binomial). Where an arm's share "
-      "of the falls differs between six or more terrains by more than chance (p < 0.05), the "
+      "of the falls differs between six or more terrains by more than chance (p < 0.2), the "
       "interval is widened to the one from resampling terrains. Intervals are not corrected for "
       "looking at many points: about one in twenty misses the truth by chance. Verdicts pool a "
       "sweep whose range was chosen by hand; read them with the single points. Falls within 1 m "

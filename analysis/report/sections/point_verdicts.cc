@@ -7,6 +7,7 @@ namespace {
 
 std::optional<std::string> WhyNot(const ReportInput& input) {
   if (input.results.arms.size() < 2) return "there is one arm, and none to compare it with";
+  if (input.results.design) return "the points of a design are pooled";
   if (input.results.axes.empty()) return "the arms walked no sweep";
   return std::nullopt;
 }

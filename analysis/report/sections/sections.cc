@@ -6,7 +6,8 @@ namespace scoria::analysis {
 std::vector<Section> FieldSections() { return {QualitySection(), FieldLogsSection()}; }
 
 std::vector<Section> AllSections() {
-  return {PointVerdictsSection(),   FailuresSection(),        FallsSection(),
+  return {PointVerdictsSection(),   RateRatiosSection(),      SurvivalSection(),
+          FactorsSection(),         FailuresSection(),        FallsSection(),
           CostOfTransportSection(), TrackingSection(),        NumbersSection(),
           DifferencesSection(),     StateEstimationSection(), ContactDetectionSection(),
           ModelAdaptationSection(), BiasBudgetSection(),      AdaptedTrackingSection(),

@@ -10,6 +10,9 @@ namespace scoria::analysis {
 [[nodiscard]] Section QualitySection();
 [[nodiscard]] Section FieldLogsSection();
 [[nodiscard]] Section PointVerdictsSection();
+[[nodiscard]] Section RateRatiosSection();
+[[nodiscard]] Section SurvivalSection();
+[[nodiscard]] Section FactorsSection();
 [[nodiscard]] Section FailuresSection();
 [[nodiscard]] Section FallsSection();
 [[nodiscard]] Section CostOfTransportSection();

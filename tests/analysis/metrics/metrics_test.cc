@@ -117,6 +117,25 @@ TEST(Metrics, WindowBeforeAFallThatEndsTheEpisodeIsDropped) {
   EXPECT_TRUE(m.Finish().windows.empty());
 }
 
+TEST(Metrics, WayBeforeTheFirstFallIsKept) {
+  MetricsAccumulator upright(9.81), fell(9.81), ended(9.81);
+  Walk walk(0.5), twice(0.5), last(0.5);
+  walk.Run(upright, 8.0);
+  EXPECT_FALSE(upright.Finish().first_fall_m);
+  twice.Run(fell, 8.0);
+  for (const std::uint32_t segment : {2u, 3u}) {
+    twice.row_.episode->fallen = true;
+    twice.Run(fell, 1.0);
+    twice.row_.episode->fallen = false;
+    twice.row_.episode->segment = segment;
+    twice.Run(fell, 4.0);
+  }
+  EXPECT_NEAR(fell.Finish().first_fall_m.value(), 4.0, 0.01) << "not that before the second one";
+  last.Run(ended, 6.0);
+  ended.AddFall({6.0, "tilt"});
+  EXPECT_NEAR(ended.Finish().first_fall_m.value(), 3.0, 0.01) << "a fall without a row";
+}
+
 TEST(Metrics, SpeedRippleWithinAStrideIsNoError) {
   MetricsAccumulator m(9.81);
   Walk walk(0.5);

@@ -8,8 +8,10 @@
 #include "analysis/plots/course_plot.h"
 #include "analysis/plots/fit_plot.h"
 #include "analysis/plots/rate_plot.h"
+#include "analysis/plots/response_plot.h"
 #include "analysis/plots/roc_plot.h"
 #include "analysis/plots/style.h"
+#include "analysis/plots/survival_plot.h"
 #include "core/files.h"
 #include "tests/support/robots.h"
 
@@ -104,6 +106,34 @@ TEST(CoursePlot, DrawsNoMoreThanALineCanShow) {
   const std::string script = Drawn(DrawCourse(plot));
   const std::string data = script.substr(0, script.find("EOD\n", script.find("$d <<") + 10));
   EXPECT_LE(std::count(data.begin(), data.end(), '\n'), 4100);
+}
+
+TEST(SurvivalPlot, DrawsStepsBandsAndCensoredLengths) {
+  const SurvivalPlot plot{
+      "survival",
+      "t",
+      "x",
+      "y",
+      {{"none", {}},
+       {"a", EstimateSurvival(std::vector<Lifetime>{{2, true}, {3, false}, {5, true}})}}};
+  const std::string script = Drawn(DrawSurvival(plot));
+  EXPECT_NE(script.find("$s1 << EOD\n0 1 1 1 \n2 1 1 1 \n2 0.666666667 "), std::string::npos)
+      << script;
+  EXPECT_NE(script.find("$s1c << EOD\n3 0.666666667 \nEOD"), std::string::npos);
+  EXPECT_NE(script.find("lc rgb '#d55e00' t 'a', $s1c"), std::string::npos);
+  EXPECT_EQ(script.find("$s0"), std::string::npos);
+}
+
+TEST(ResponsePlot, HasAPanelForEachFactor) {
+  const ResponseSeries none{"none", {}, {}}, a{"a", {{1, 2}, {10, 3}}, {{5, 2.5}}};
+  const ResponsePlot plot{
+      "response", "t", "y", {{"speed", false, {none, a}}, {"slope", true, {none, a}}}};
+  const std::string script = Drawn(DrawResponses(plot));
+  EXPECT_NE(script.find("layout 1,2"), std::string::npos);
+  EXPECT_NE(script.find("set xlabel 'speed'; unset logscale x; plot $r0_1p"), std::string::npos);
+  EXPECT_NE(script.find("set xlabel 'slope'; set logscale x; plot $r1_1p"), std::string::npos);
+  EXPECT_NE(script.find("$r1_1m << EOD\n5 2.5 \nEOD"), std::string::npos);
+  EXPECT_EQ(script.find("_0p"), std::string::npos);
 }
 
 TEST(RocPlot, NamesTheAreaAndMarksWhereADetectorIsUsed) {

@@ -114,7 +114,7 @@ TEST(Compare, VerdictNamesWhoFallsLessWithItsInterval) {
   const Comparison c = Compare(results, "a", "b", {"0.3"});
   EXPECT_EQ(c.falls_a.events, 0);
   EXPECT_EQ(c.falls_b.events, 18);
-  EXPECT_LT(c.ratio.interval.high, 1.0);
+  EXPECT_LT(c.rates.judged.interval.high, 1.0);
   EXPECT_EQ(c.verdict.find("speed [m/s] 0.3: a falls less than b: a fell 0 times in 150 m, b 18 "
                            "times in 150 m, rate ratio 0.00"),
             0u)
@@ -326,12 +326,12 @@ TEST(Report, PairsTrackingBySeed) {
   ASSERT_EQ(all.size(), 3u);  // pooled, then two points
   EXPECT_EQ(all[0].arm, "b");
   EXPECT_EQ(all[0].baseline, "a");
-  const MeanEstimate height_m = all[0].Find("height_rmse_m")->difference;
+  const MeanEstimate height_m = all[0].Find("height_rmse_m")->pairs.difference;
   EXPECT_EQ(height_m.count, 3u);
   EXPECT_NEAR(height_m.mean, -0.004, 1e-12);
   // Differences of -3, -4 and -5 mm.
   EXPECT_NEAR(height_m.interval.high, -0.004 + 0.001 * 2.484, 1e-5);
-  EXPECT_EQ(all[2].Find("height_rmse_m")->difference.count, 2u);  // one episode of a crashed
+  EXPECT_EQ(all[2].Find("height_rmse_m")->pairs.difference.count, 2u);  // one episode of a crashed
 }
 
 /// The course of two payloads, the second taken away gradually.

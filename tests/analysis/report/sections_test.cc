@@ -79,6 +79,10 @@ TEST(Sections, PlainRunSaysWhatItDoesNotShow) {
             (std::vector<std::string>{
                 "Who falls less, at each point, because there is one arm, and none to compare it "
                 "with.",
+                "Rate ratios and power, because there is one arm, and none to compare it with.",
+                "Metres to the first fall, because no episode fell whose way to the first fall is "
+                "known.",
+                "Response over the factors, because the sweep is no design over factors.",
                 "Falls, because no episode fell, and no number was swept that falls could be drawn "
                 "against.",
                 "Cost of transport, because no episode walked steadily for five seconds.",

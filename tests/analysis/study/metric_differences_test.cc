@@ -48,23 +48,23 @@ TEST(MetricDifferences, PairEpisodesOfTheSameSeed) {
   EXPECT_EQ(all[0].baseline, "a");
   const MetricDifference* b = all[0].Find("height_rmse_m");
   ASSERT_NE(b, nullptr);
-  EXPECT_EQ(b->difference.count, 3u);
-  EXPECT_NEAR(b->baseline_mean, 0.012, 1e-12);
-  EXPECT_NEAR(b->difference.mean, -0.004, 1e-12);
+  EXPECT_EQ(b->pairs.difference.count, 3u);
+  EXPECT_NEAR(b->pairs.mean_b, 0.012, 1e-12);
+  EXPECT_NEAR(b->pairs.difference.mean, -0.004, 1e-12);
   // Differences of -3, -4 and -5 mm.
-  EXPECT_NEAR(b->difference.interval.high, -0.004 + 0.001 * 2.484, 1e-5);
+  EXPECT_NEAR(b->pairs.difference.interval.high, -0.004 + 0.001 * 2.484, 1e-5);
   EXPECT_EQ(Judge(*b), Judgement::kBetter) << "lower is better";
   const MetricDifference* c = all[1].Find("height_rmse_m");
   ASSERT_NE(c, nullptr);
-  EXPECT_EQ(c->difference.count, 1u) << "seed 9 has no partner";
-  EXPECT_NEAR(c->difference.mean, 0.009, 1e-12);
+  EXPECT_EQ(c->pairs.difference.count, 1u) << "seed 9 has no partner";
+  EXPECT_NEAR(c->pairs.difference.mean, 0.009, 1e-12);
   EXPECT_EQ(Judge(*c), Judgement::kNoneShown) << "of one seed";
   EXPECT_EQ(all[0].Find("roll_rmse_rad"), nullptr) << "nobody measured it";
 }
 
 TEST(MetricDifferences, DirectionsDecideWhatIsBetter) {
   MetricDifference d;
-  d.difference = {3, 1.0, {0.5, 1.5}, 0.1};
+  d.pairs.difference = {3, 1.0, {0.5, 1.5}, 0.1};
   d.metric.better = Better::kHigher;
   EXPECT_EQ(Judge(d), Judgement::kBetter);
   d.metric.better = Better::kLower;
@@ -72,7 +72,7 @@ TEST(MetricDifferences, DirectionsDecideWhatIsBetter) {
   d.metric.better = Better::kNeither;
   EXPECT_EQ(Judge(d), Judgement::kNoDirection);
   d.metric.better = Better::kLower;
-  d.difference.interval = {-0.5, 1.5};
+  d.pairs.difference.interval = {-0.5, 1.5};
   EXPECT_EQ(Judge(d), Judgement::kNoneShown);
 }
 
@@ -92,10 +92,15 @@ TEST(MetricDifferences, AreATableOfTheReport) {
   for (const Chapter& chapter : d.chapters) {
     if (chapter.key != "differences") continue;
     EXPECT_EQ(std::get<Heading>(chapter.blocks.at(0)).text, "b against a");
-    const Table& table = std::get<Table>(chapter.blocks.at(1));
+    EXPECT_EQ(std::get<Paragraph>(chapter.blocks.at(1)).text.find("b against a: "), 0u);
+    const Table& table = std::get<Table>(chapter.blocks.at(2));
     const std::vector<std::string> line = {"height RMSE [mm]",          "3",     "8.0",   "12.0",
                                            "-4.0 (95 %: -6.5 to -1.5)", "lower", "better"};
-    EXPECT_NE(std::find(table.rows.begin(), table.rows.end(), line), table.rows.end());
+    const auto begins = [&](const std::vector<std::string>& row) {
+      return std::equal(line.begin(), line.end(), row.begin());
+    };
+    EXPECT_EQ(std::count_if(table.rows.begin(), table.rows.end(), begins), 1);
+    for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.header.size());
     return;
   }
   FAIL() << "no such section";

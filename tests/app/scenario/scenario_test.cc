@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include "analysis/report/plain_text.h"
 #include "app/campaign/campaign.h"
+#include "app/campaign/campaign_plan.h"
 #include "app/scenario/config_docs.h"
 #include "core/files.h"
 #include "tests/support/robots.h"
@@ -118,6 +120,86 @@ TEST(Campaign, SweepErrorsNameTheRule) {
   EXPECT_EQ(SweepError("  - {label: l, variants: [{name: v, sed: 1}]}"),
             "c.yaml:5:37: sweep[0].variants[0].sed: unknown key (did you mean \"set\"?)");
   EXPECT_EQ(SweepError("  - {key: duration_s, baseline: 20, values: [10, 20]}"), "no error");
+}
+
+/// What LoadCampaign says of a design over the level trot.
+std::string DesignError(const std::string& design) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "c.yaml";
+  core::WriteText(file, fmt::format("name: c\nscenario: {{base: {}}}\narms: [{{name: a}}]\n"
+                                    "sweep: {}\n",
+                                    test::SourcePath("scenarios/flat.yaml").string(), design));
+  try {
+    const Campaign campaign = LoadCampaign(file, {});
+    return fmt::format("{} points", campaign.design->points.size());
+  } catch (const core::ConfigError& e) {
+    const std::string what = e.what();
+    return what.substr(what.find("c.yaml"));
+  }
+}
+
+TEST(Campaign, DesignErrorsNameTheRule) {
+  EXPECT_EQ(DesignError("{points: 9, factors: [{key: duration_s, from: 1, to: 2}]}"), "9 points");
+  EXPECT_EQ(DesignError("{design: latin_hypercube, points: 11, factors: [{key: duration_s, from: "
+                        "1, to: 2, scale: log}, {key: gravity_mps2, from: 3, to: 9}]}"),
+            "8 points");
+  EXPECT_EQ(DesignError("{points: 9}"), "c.yaml:4:8: sweep.factors: must list at least one factor");
+  EXPECT_EQ(DesignError("{design: grid}").substr(0, 46),
+            "c.yaml:4:17: sweep.design: unknown \"grid\"; ch");
+  EXPECT_EQ(DesignError("{factors: [{key: duration_s, from: 2, to: 2}]}"),
+            "c.yaml:4:19: sweep.factors[0].to: 2 is not above 2");
+  EXPECT_EQ(DesignError("{factors: [{key: duration_s, from: 0, to: 2, scale: log}]}"),
+            "c.yaml:4:19: sweep.factors[0].from: must be above 0 on a logarithmic scale");
+  EXPECT_EQ(DesignError("{points: 3, factors: [{key: duration_s, from: 1, to: 2}, {key: "
+                        "gravity_mps2, from: 3, to: 9}]}"),
+            "c.yaml:4:8: sweep.points: 2 factors need at least 4");
+  EXPECT_EQ(DesignError("{factors: [{key: seed, from: 1, to: 2}, {key: seed, from: 1, to: 2}]}"),
+            "c.yaml:4:47: sweep.factors[1].key: seed: is a factor already");
+  EXPECT_NE(DesignError("{points: 9, factors: [{key: duratoin_s, from: 1, to: 2}]}")
+                .find("duratoin_s: unknown key (did you mean \"duration_s\"?)"),
+            std::string::npos);
+}
+
+TEST(Campaign, DesignSetsItsFactors) {
+  const Campaign campaign = LoadCampaign(test::SourcePath("campaigns/factors.yaml"), {});
+  ASSERT_TRUE(campaign.design);
+  const std::vector<CampaignJob> jobs = Plan(campaign);
+  EXPECT_EQ(jobs.size(), campaign.arms.size() * campaign.design->points.size() *
+                             static_cast<std::size_t>(campaign.seeds));
+  std::size_t at = 0;
+  while (campaign.design->factors.at(at).key != "operator.speed_mps") ++at;
+  for (const CampaignJob& job : jobs) {
+    EXPECT_EQ(std::get<RouteParams>(job.scenario.operation).speed_mps, std::stod(job.point.at(at)));
+  }
+  EXPECT_EQ(jobs.front().id, "ags-p1-s1");
+}
+
+TEST(CampaignPlan, TellsWhatTheBudgetSees) {
+  const Campaign campaign = LoadCampaign(test::SourcePath("campaigns/demo.yaml"), {});
+  const std::string assumed = analysis::ToPlainText(PlanCampaign(campaign, {}, std::nullopt));
+  EXPECT_NE(assumed.find("3 arms × 3 points × 5 seeds: 45 episodes; 300 m of each arm at most."),
+            std::string::npos)
+      << assumed;
+  EXPECT_NE(assumed.find("power 80 %, level 5 %"), std::string::npos);
+  for (const char* line : {"\n30 ", "\n100 ", "\n300 "})
+    EXPECT_NE(assumed.find(line), std::string::npos) << line;
+  const std::string given =
+      analysis::ToPlainText(PlanCampaign(campaign, {0.01, 0.9}, FallRate{0.02, "measured"}));
+  EXPECT_NE(given.find("power 90 %, level 1 %"), std::string::npos);
+  EXPECT_NE(given.find("\n50 "), std::string::npos);
+  EXPECT_NE(given.find("measured"), std::string::npos);
+  EXPECT_EQ(given.find("assumed"), std::string::npos);
+  analysis::CampaignResults results;
+  EXPECT_FALSE(MeasuredFallRate(results));
+  results.episodes.resize(2);
+  for (analysis::EpisodeRecord& e : results.episodes) {
+    e.has_metrics = true;
+    e.metrics.outcome.emplace();
+    e.metrics.outcome->falls = 2;
+    e.metrics.distance_m = 50.0;
+  }
+  EXPECT_NEAR(MeasuredFallRate(results)->per_m, 0.04, 1e-12);
+  EXPECT_EQ(MeasuredFallRate(results)->source, "4 falls in 100 m");
 }
 
 TEST(Docs, ConfigTableIsCurrent) {
