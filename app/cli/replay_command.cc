@@ -87,8 +87,9 @@ void AddReplay(CLI::App& app, int& exit_code) {
     const bool own = !o->input.rows.mapping && !o->input.robot &&
                      logs::HasOwnRows(logs::OpenLog(o->input.log)->contents());
     const bool asks_for_files = !o->outputs.log.empty() || !o->outputs.tum.empty();
-    exit_code = own && variant->empty() && !asks_for_files && o->json.empty() ? ReplayController(*o)
-                                                                              : ReplayRows(*o);
+    const bool by_controller =
+        !o->set.empty() || (own && variant->empty() && !asks_for_files && o->json.empty());
+    exit_code = by_controller ? ReplayController(*o) : ReplayRows(*o);
   });
 }
 

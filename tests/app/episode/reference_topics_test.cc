@@ -124,15 +124,16 @@ TEST_F(ReferenceLog, IsVerifiedByItsTopics) {
 }
 
 TEST_F(ReferenceLog, SaysWhatItLacks) {
-  const auto output = [&](const char* command) {
-    const test::ProgramEnd end = test::RunScoria({command, "log.mcap"}, {.folder = folder_.path()});
-    EXPECT_EQ(end.code, 2) << command;
+  const auto output = [&](std::vector<std::string> command) {
+    command.insert(command.begin() + 1, "log.mcap");
+    const test::ProgramEnd end = test::RunScoria(command, {.folder = folder_.path()});
+    EXPECT_EQ(end.code, 2) << command[0];
     return end.output;
   };
-  EXPECT_EQ(output("replay"),
+  EXPECT_EQ(output({"replay", "--set", "controller.estimator.type=inekf"}),
             "log.mcap: the log holds the reference's topics alone (log.topics=reference), without "
             "the controller's inputs that a replay needs; record it with log.topics=all\n");
-  EXPECT_EQ(output("render"),
+  EXPECT_EQ(output({"render"}),
             "log.mcap: the log holds the reference's topics alone (log.topics=reference), without "
             "the rows that a video needs; record it with log.topics=all\n");
   EXPECT_EQ(logs::ReadLog(log()).problem,
