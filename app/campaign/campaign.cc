@@ -119,7 +119,8 @@ std::vector<SweepPoint> CrossAxes(const std::vector<CampaignAxis>& axes) {
   return points;
 }
 
-std::vector<SweepPoint> PointsOf(const analysis::Design& design) {
+/// @param origin  of the design, for places in messages.
+std::vector<SweepPoint> PointsOf(const analysis::Design& design, const core::Origin& origin) {
   std::vector<SweepPoint> points;
   for (const std::vector<std::string>& values : design.points) {
     SweepPoint& point = points.emplace_back();
@@ -128,7 +129,8 @@ std::vector<SweepPoint> PointsOf(const analysis::Design& design) {
     for (std::size_t k = 0; k < values.size(); ++k) {
       ConfigNode& set = point.sets.emplace_back();
       set.kind = ConfigNode::Kind::kMap;
-      core::SetAt(set, design.factors[k].key, {ConfigNode::Kind::kScalar, values[k], {}, {}, {}});
+      core::SetAt(set, design.factors[k].key,
+                  {ConfigNode::Kind::kScalar, values[k], {}, {}, origin});
     }
   }
   return points;
@@ -183,8 +185,9 @@ void CheckExpected(const Campaign& campaign, const ConfigNode& node) {
 }  // namespace
 
 std::vector<CampaignJob> Plan(const Campaign& campaign) {
-  const std::vector<SweepPoint> points =
-      campaign.design ? PointsOf(*campaign.design) : CrossAxes(campaign.sweep);
+  const std::vector<SweepPoint> points = campaign.design
+                                             ? PointsOf(*campaign.design, campaign.design_origin)
+                                             : CrossAxes(campaign.sweep);
   std::vector<CampaignJob> jobs;
   for (const CampaignArm& arm : campaign.arms) {
     for (const SweepPoint& point : points) AddJobs(campaign, arm, point, jobs);
@@ -203,6 +206,8 @@ std::vector<CampaignJob> Plan(const Campaign& campaign) {
 
 Campaign LoadCampaign(const fs::path& file, const std::vector<std::string>& overrides) {
   ConfigNode node = LoadKind("campaign", file, overrides);
+  const core::Origin design_origin =
+      node.Find("sweep") != nullptr ? node.Find("sweep")->origin : core::Origin();
   const std::optional<analysis::Design> design = TakeDesign(node);
   const auto read = core::ReadConfig<CampaignFile>(node);
   if (read.arms.empty())
@@ -216,6 +221,7 @@ Campaign LoadCampaign(const fs::path& file, const std::vector<std::string>& over
   campaign.seeds = read.seeds;
   campaign.expect = read.expect;
   campaign.design = design;
+  campaign.design_origin = design_origin;
   for (const ArmFile& arm : read.arms) campaign.arms.push_back(ToArm(arm));
   const ConfigNode* sweep = node.Find("sweep");
   for (std::size_t i = 0; i < read.sweep.size(); ++i)

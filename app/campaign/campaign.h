@@ -38,6 +38,7 @@ struct Campaign {
   std::vector<CampaignArm> arms;
   std::vector<CampaignAxis> sweep;
   std::optional<analysis::Design> design;
+  core::Origin design_origin;  // in the campaign's file
   std::uint64_t first_seed = 1;
   int seeds = 3;
   ArmExpectations expect;

@@ -144,8 +144,8 @@ TEST(Campaign, DesignErrorsNameTheRule) {
                         "1, to: 2, scale: log}, {key: gravity_mps2, from: 3, to: 9}]}"),
             "8 points");
   EXPECT_EQ(DesignError("{points: 9}"), "c.yaml:4:8: sweep.factors: must list at least one factor");
-  EXPECT_EQ(DesignError("{design: grid}").substr(0, 46),
-            "c.yaml:4:17: sweep.design: unknown \"grid\"; ch");
+  EXPECT_EQ(DesignError("{design: grid}").substr(0, 47),
+            "c.yaml:4:17: sweep.design: unknown \"grid\"; cho");
   EXPECT_EQ(DesignError("{factors: [{key: duration_s, from: 2, to: 2}]}"),
             "c.yaml:4:19: sweep.factors[0].to: 2 is not above 2");
   EXPECT_EQ(DesignError("{factors: [{key: duration_s, from: 0, to: 2, scale: log}]}"),
@@ -154,9 +154,9 @@ TEST(Campaign, DesignErrorsNameTheRule) {
                         "gravity_mps2, from: 3, to: 9}]}"),
             "c.yaml:4:8: sweep.points: 2 factors need at least 4");
   EXPECT_EQ(DesignError("{factors: [{key: seed, from: 1, to: 2}, {key: seed, from: 1, to: 2}]}"),
-            "c.yaml:4:47: sweep.factors[1].key: seed: is a factor already");
+            "c.yaml:4:48: sweep.factors[1].key: seed: is a factor already");
   EXPECT_NE(DesignError("{points: 9, factors: [{key: duratoin_s, from: 1, to: 2}]}")
-                .find("duratoin_s: unknown key (did you mean \"duration_s\"?)"),
+                .find("c.yaml:4:8: duratoin_s: unknown key (did you mean \"duration_s\"?)"),
             std::string::npos);
 }
 
