@@ -65,7 +65,7 @@ struct LogMessage {
 
 /// In which order messages come.
 enum class LogOrder {
-  kTime,    // of recording, equal times as stored
+  kTime,    // of recording, by what the index says if there is one; equal times as stored
   kStored,  // as in the container; where its clock goes back, so do the messages
 };
 

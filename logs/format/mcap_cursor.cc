@@ -86,7 +86,8 @@ void McapCursor::OpenBlockOf(const Block& block) {
   } else if (!in_span || (block.channels && CountOf(*block.channels) != count)) {
     Report(
         LogProblem::Kind::kOdd,
-        fmt::format("at byte {}: the chunk's index is wrong about its {} messages or their times",
+        fmt::format("at byte {}: the chunk's index is wrong about its {} messages or their times, "
+                    "so they may come out of their order",
                     block.offset, count));
   }
   if (open->places.empty()) return;

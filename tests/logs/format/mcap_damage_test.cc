@@ -287,7 +287,7 @@ TEST_F(DamagedMcapTest, IndexThatIsWrongIsNamed) {
     EXPECT_EQ(problems_[0].kind, LogProblem::Kind::kOdd);
     EXPECT_EQ(problems_[0].what,
               fmt::format("at byte {}: the chunk's index is wrong about its 2 messages or their "
-                          "times",
+                          "times, so they may come out of their order",
                           8 + 9 + 8 + definition.size()));
   }
 }
