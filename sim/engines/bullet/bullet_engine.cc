@@ -2,6 +2,7 @@
 #include "sim/engines/bullet/bullet_engine.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
 #include "core/demand.h"
+#include "sim/engines/bullet/joint_inertia.h"
 #include "sim/engines/bullet/joint_rows.h"
 #include "sim/engines/bullet/robot_multibody.h"
 
@@ -23,29 +25,42 @@ Vec3 ToVec3(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 /// The robot with a given trunk, and what its joints add.
 struct Robot {
   Robot(const core::RobotDescription& robot, const core::SpatialInertia& trunk)
-      : multibody(robot, trunk), joints(robot, multibody.body()) {}
+      : multibody(robot, trunk),
+        joint_inertia(robot.config.motors),
+        joint_rows(robot, multibody.body()) {}
   RobotMultiBody multibody;
-  JointRows joints;
+  JointInertia joint_inertia;
+  JointRows joint_rows;
 };
 
-/// Bullet's solver, started from guesses of the impulses: from zero it does not come to rest within
-/// its iterations where the friction of the joints holds a standing robot.
-class WarmSolver final : public btMultiBodyConstraintSolver {
+/// Bullet's solver of a robot with rotors and dampers, started from guesses of the impulses: from
+/// zero it does not come to rest within its iterations where the friction of the joints holds a
+/// standing robot.
+class RobotSolver final : public btMultiBodyConstraintSolver {
  public:
-  /// @param contacts  with a guess each, one to a manifold; borrowed for the next solution.
-  void SetGuesses(std::span<const ContactPoint> contacts) { contacts_ = contacts; }
+  /// Both are borrowed for the next solution.
+  /// @param contacts  with a guess each, one to a manifold.
+  void Prepare(const JointInertia& inertia, std::span<const ContactPoint> contacts) {
+    inertia_ = &inertia;
+    contacts_ = contacts;
+  }
 
  protected:
   void convertContacts(btPersistentManifold** manifolds, int count,
                        const btContactSolverInfo& info) override {
     btMultiBodyConstraintSolver::convertContacts(manifolds, count, info);
     for (int i = 0; i < count; ++i) {
+      btMultiBodySolverConstraint& normal = m_multiBodyNormalContactConstraints[i];
+      btMultiBodySolverConstraint& tangent1 = m_multiBodyFrictionContactConstraints[2 * i];
+      btMultiBodySolverConstraint& tangent2 = m_multiBodyFrictionContactConstraints[2 * i + 1];
+      for (auto* row : {&normal, &tangent1, &tangent2}) AddJointInertia(*row);
+      ShareDivisor(tangent1, tangent2);
       const Vec3& guess_W = contacts_[static_cast<std::size_t>(i)].impulse_W;
       const btManifoldPoint& point = manifolds[i]->getContactPoint(0);
       const auto along = [&](const btVector3& d) { return guess_W.dot(ToVec3(d)); };
-      Start(m_multiBodyNormalContactConstraints[i], std::max(0.0, along(point.m_normalWorldOnB)));
-      Start(m_multiBodyFrictionContactConstraints[2 * i], along(point.m_lateralFrictionDir1));
-      Start(m_multiBodyFrictionContactConstraints[2 * i + 1], along(point.m_lateralFrictionDir2));
+      Start(normal, std::max(0.0, along(point.m_normalWorldOnB)));
+      Start(tangent1, along(point.m_lateralFrictionDir1));
+      Start(tangent2, along(point.m_lateralFrictionDir2));
     }
     for (int i = 0; i < m_multiBodyNonContactConstraints.size(); ++i) {
       btMultiBodySolverConstraint& row = m_multiBodyNonContactConstraints[i];
@@ -54,6 +69,36 @@ class WarmSolver final : public btMultiBodyConstraintSolver {
   }
 
  private:
+  /// Bullet made the row for the robot without rotors and dampers.
+  void AddJointInertia(btMultiBodySolverConstraint& row) {
+    using Map = Eigen::Map<JointInertia::Velocities>;
+    const double before = 1.0 / row.m_jacDiagABInv;  // mobility with softness
+    const double after =
+        before - inertia_->Correct(Map(&m_data.m_jacobians[row.m_jacAindex]),
+                                   Map(&m_data.m_deltaVelocitiesUnitImpulse[row.m_jacAindex]));
+    SetMobility(row, after);
+  }
+
+  /// The larger eigenvalue of their 2 x 2 block divides both tangents of a contact, so that a foot
+  /// slides with its friction exactly against its motion; Bullet gives each its own divisor.
+  void ShareDivisor(btMultiBodySolverConstraint& a, btMultiBodySolverConstraint& b) {
+    double across = 0.0;
+    for (int i = 0; i < JointInertia::kCoordinates; ++i) {
+      across += m_data.m_jacobians[a.m_jacAindex + i] *
+                m_data.m_deltaVelocitiesUnitImpulse[b.m_jacAindex + i];
+    }
+    const double aa = 1.0 / a.m_jacDiagABInv, bb = 1.0 / b.m_jacDiagABInv;
+    const double larger = 0.5 * (aa + bb) + std::hypot(0.5 * (aa - bb), across);
+    SetMobility(a, larger);
+    SetMobility(b, larger);
+  }
+
+  /// By which the solver divides a row's correction.
+  static void SetMobility(btMultiBodySolverConstraint& row, double mobility) {
+    const double change = 1.0 / (row.m_jacDiagABInv * mobility);
+    for (btScalar* divided : {&row.m_jacDiagABInv, &row.m_rhs, &row.m_cfm}) *divided *= change;
+  }
+
   void Start(btMultiBodySolverConstraint& row, double impulse) {
     if (impulse == 0.0) return;
     row.m_appliedImpulse = impulse;
@@ -62,6 +107,7 @@ class WarmSolver final : public btMultiBodyConstraintSolver {
     applyDeltaVee(response, impulse, row.m_deltaVelAindex, row.m_multiBodyA->getNumDofs() + 6);
   }
 
+  const JointInertia* inertia_ = nullptr;
   std::span<const ContactPoint> contacts_;
 };
 
@@ -105,7 +151,8 @@ struct BulletEngine::Impl {
       : description(description_in), gravity_W(gravity_in_W), params(params_in) {}
 
   void ApplyForces(const StepInput& in);
-  void MoveFreely(double dt_s);
+  void MoveFreely(const StepInput& in);
+  void AddJointInertia(const StepInput& in);
   void PutContacts(const StepInput& in, std::span<const ContactPoint> contacts);
   void Solve(std::span<const ContactPoint> contacts);
 
@@ -114,7 +161,7 @@ struct BulletEngine::Impl {
   SolverParams params;
   std::unique_ptr<Robot> robot;  // with the trunk of the last step
   btCollisionObject ground;
-  WarmSolver solver;
+  RobotSolver solver;
   JointRowImpulses joint_impulses{};  // of the last step
   btContactSolverInfo info = MakeSolverInfo(params);
   std::vector<std::unique_ptr<btPersistentManifold>> manifolds;  // one per contact, and spare ones
@@ -138,11 +185,30 @@ void BulletEngine::Impl::ApplyForces(const StepInput& in) {
 }
 
 /// Velocities without contacts and rows of joints.
-void BulletEngine::Impl::MoveFreely(double dt_s) {
+void BulletEngine::Impl::MoveFreely(const StepInput& in) {
   btMultiBody& body = robot->multibody.body();
-  body.computeAccelerationsArticulatedBodyAlgorithmMultiDof(dt_s, scratch_r, scratch_v, scratch_m,
-                                                            false, false, false);
+  body.computeAccelerationsArticulatedBodyAlgorithmMultiDof(in.dt_s, scratch_r, scratch_v,
+                                                            scratch_m, false, false, false);
   body.clearForcesAndTorques();
+  AddJointInertia(in);
+}
+
+/// Bullet's articulated bodies have moved without rotors and dampers.
+void BulletEngine::Impl::AddJointInertia(const StepInput& in) {
+  btMultiBody& body = robot->multibody.body();
+  JointInertia& inertia = robot->joint_inertia;
+  JointInertia::Responses V;
+  Vec12 free_radps;
+  for (int link = 0; link < kNumJoints; ++link) {
+    const JointInertia::Velocities impulse = JointInertia::Velocities::Unit(6 + link);
+    body.calcAccelerationDeltasMultiDof(impulse.data(), V.col(link).data(), scratch_r, scratch_v);
+    free_radps[link] = body.getJointVel(link);
+  }
+  inertia.Prepare(V, in.dt_s);
+  const auto before_radps = Flatten(in.wb.state.qd);
+  const JointInertia::Velocities change =
+      inertia.FreeChange(Eigen::Map<const Vec12>(before_radps.data()), free_radps);
+  body.applyDeltaVeeMultiDof(change.data(), 1.0);
 }
 
 void BulletEngine::Impl::PutContacts(const StepInput& in, std::span<const ContactPoint> contacts) {
@@ -161,13 +227,13 @@ void BulletEngine::Impl::PutContacts(const StepInput& in, std::span<const Contac
 }
 
 void BulletEngine::Impl::Solve(std::span<const ContactPoint> contacts) {
-  solver.SetGuesses(contacts);
+  solver.Prepare(robot->joint_inertia, contacts);
   btCollisionObject* base = &robot->multibody.collider(0);
-  auto& rows = robot->joints.constraints();
+  auto& rows = robot->joint_rows.constraints();
   solver.solveMultiBodyGroup(&base, 1, used.data(), static_cast<int>(used.size()), nullptr, 0,
                              rows.data(), static_cast<int>(rows.size()), info, nullptr, nullptr);
   robot->multibody.body().processDeltaVeeMultiDof2();
-  joint_impulses = robot->joints.impulses();
+  joint_impulses = robot->joint_rows.impulses();
 }
 
 BulletEngine::BulletEngine(const core::RobotDescription& robot, const Vec3& gravity_W,
@@ -191,9 +257,9 @@ StepResult BulletEngine::Step(const StepInput& in, std::span<ContactPoint> conta
   RobotMultiBody& multibody = e.robot->multibody;
   e.info.m_timeStep = in.dt_s;
   multibody.SetState(in.wb.state);
-  e.robot->joints.Prepare(in.wb.state, e.joint_impulses);
   e.ApplyForces(in);
-  e.MoveFreely(in.dt_s);
+  e.MoveFreely(in);
+  e.robot->joint_rows.Prepare(in.wb.state, e.robot->joint_inertia, e.joint_impulses);
   e.PutContacts(in, contacts);
   e.Solve(contacts);
   multibody.body().stepPositionsMultiDof(in.dt_s);
@@ -201,7 +267,7 @@ StepResult BulletEngine::Step(const StepInput& in, std::span<ContactPoint> conta
     contacts[i].impulse_W = ImpulseOf(e.manifolds[i]->getContactPoint(0));
   StepResult result;
   result.state = multibody.state();
-  result.joint_impulse = e.robot->joints.Loads(result.state, in.dt_s);
+  result.joint_impulse = e.robot->joint_rows.Loads(result.state, in.dt_s);
   result.iterations = e.solver.m_analyticsData.m_numIterationsUsed;
   return result;
 }

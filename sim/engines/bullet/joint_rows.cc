@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/engines/bullet/joint_rows.h"
 
+#include <optional>
+
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraint.h>
 
@@ -11,9 +13,9 @@ namespace {
 
 constexpr double kUnlimited_Nms = 1e9;
 
-/// One row: u + softness λ = target, for an impulse λ within bounds.
+/// One row: u ≥, = or ≤ target, for an impulse within bounds.
 struct RowLaw {
-  double target_radps = 0.0, softness = 0.0;
+  double target_radps = 0.0;
   double low_Nms = -kUnlimited_Nms, high_Nms = kUnlimited_Nms;
 };
 
@@ -21,7 +23,7 @@ struct RowLaw {
 
 class JointRows::Drive final : public btMultiBodyConstraint {
  public:
-  enum Row : int { kRotor, kFriction, kLower, kUpper, kNumRows };
+  enum Row : int { kFriction, kLower, kUpper, kNumRows };
   static_assert(kNumRows == kRowsPerJoint);
 
   Drive(btMultiBody& body, int link, const core::JointDescription& joint,
@@ -29,7 +31,6 @@ class JointRows::Drive final : public btMultiBodyConstraint {
       : btMultiBodyConstraint(&body, nullptr, link, -1, kNumRows, false,
                               MAX_MULTIBODY_CONSTRAINT_TYPE),
         joint_(joint),
-        armature_kgm2_(motors.armature_kgm2[axis]),
         damping_Nms_per_rad_(motors.damping_Nms_per_rad[axis]),
         friction_Nm_(motors.friction_Nm[axis]) {
     finalizeMultiDof();
@@ -37,16 +38,17 @@ class JointRows::Drive final : public btMultiBodyConstraint {
 
   void finalizeMultiDof() override {
     allocateJacobiansMultiDof();
-    jacobianA(kRotor)[6 + m_bodyA->getLink(m_linkA).m_dofOffset] = 1.0;
     m_numDofsFinalized = m_jacSizeBoth;
   }
   [[nodiscard]] int getIslandIdA() const override { return 0; }
   [[nodiscard]] int getIslandIdB() const override { return 0; }
   void debugDraw(btIDebugDraw*) override {}
 
-  void Prepare(double q, double qd, const std::array<double, kRowsPerJoint>& guess) {
+  void Prepare(double q, double qd, const JointInertia::Responses& responses,
+               const std::array<double, kRowsPerJoint>& guess) {
     q_rad_ = q;
     qd_radps_ = qd;
+    response_ = responses.col(m_linkA);
     guess_ = guess;
   }
 
@@ -54,59 +56,71 @@ class JointRows::Drive final : public btMultiBodyConstraint {
                             const btContactSolverInfo& info) override {
     for (int row = 0; row < kNumRows; ++row) internalSetAppliedImpulse(row, 0.0);
     const double dt = info.m_timeStep;
-    // Rotor and damper push with λ = I (q̇ − q̇⁺) − dt D q̇⁺.
-    const double resistance = armature_kgm2_ + dt * damping_Nms_per_rad_;
-    if (resistance > 0.0)
-      Add(kRotor, {armature_kgm2_ * qd_radps_ / resistance, 1.0 / resistance}, rows, data, info);
+    pattern_.reset();
     if (friction_Nm_ > 0.0)
-      Add(kFriction, {0.0, 0.0, -dt * friction_Nm_, dt * friction_Nm_}, rows, data, info);
+      Add(kFriction, {0.0, -dt * friction_Nm_, dt * friction_Nm_}, rows, data);
     if (const auto retreat = CalcLeastRetreat(q_rad_ - joint_.lower_rad, qd_radps_, dt))
-      Add(kLower, {*retreat, 0.0, 0.0, kUnlimited_Nms}, rows, data, info);
+      Add(kLower, {*retreat, 0.0, kUnlimited_Nms}, rows, data);
     if (const auto retreat = CalcLeastRetreat(joint_.upper_rad - q_rad_, qd_radps_, dt))
-      Add(kUpper, {-*retreat, 0.0, -kUnlimited_Nms, 0.0}, rows, data, info);
-    filled_ = false;
+      Add(kUpper, {-*retreat, -kUnlimited_Nms, 0.0}, rows, data);
   }
 
   [[nodiscard]] std::array<double, kRowsPerJoint> impulses() const {
-    return {m_data[kRotor], m_data[kFriction], m_data[kLower], m_data[kUpper]};
+    return {m_data[kFriction], m_data[kLower], m_data[kUpper]};
   }
-  /// Impulse on the joint of all but the rotor's inertia.
+  /// Impulse on the joint of damper, friction and limits.
   [[nodiscard]] double CalcLoad(double qd_after_radps, double dt_s) const {
     return m_data[kFriction] + m_data[kLower] + m_data[kUpper] -
            dt_s * damping_Nms_per_rad_ * qd_after_radps;
   }
 
  private:
-  void Add(Row row, const RowLaw& law, btMultiBodyConstraintArray& rows,
-           btMultiBodyJacobianData& data, const btContactSolverInfo& info) {
-    btMultiBodySolverConstraint& r = rows.expandNonInitializing();
-    if (filled_) {
-      r = pattern_;
-    } else {
-      const btVector3 none(0.0, 0.0, 0.0);
-      fillMultiBodyConstraint(r, data, jacobianA(kRotor), nullptr, none, none, none, none, 0.0,
-                              info, -kUnlimited_Nms, kUnlimited_Nms);
-      pattern_ = r;
-      filled_ = true;
+  /// A row with the Jacobian of this joint and its response.
+  [[nodiscard]] btMultiBodySolverConstraint MakePattern(btMultiBodyJacobianData& data) const {
+    constexpr int kSize = JointInertia::kCoordinates;
+    const int at = data.m_jacobians.size(), own = 6 + m_bodyA->getLink(m_linkA).m_dofOffset;
+    data.m_jacobians.resize(at + kSize, 0.0);
+    data.m_jacobians[at + own] = 1.0;
+    data.m_deltaVelocitiesUnitImpulse.resize(at + kSize);
+    for (int i = 0; i < kSize; ++i) data.m_deltaVelocitiesUnitImpulse[at + i] = response_[i];
+    if (m_bodyA->getCompanionId() < 0) {
+      m_bodyA->setCompanionId(data.m_deltaVelocities.size());
+      data.m_deltaVelocities.resize(data.m_deltaVelocities.size() + kSize, 0.0);
     }
-    internalSetAppliedImpulse(row, guess_[static_cast<std::size_t>(row)]);
-    const double mobility = 1.0 / pattern_.m_jacDiagABInv + law.softness;  // rad/s per N m s
-    r.m_orgConstraint = this;
-    r.m_orgDofIndex = row;
-    r.m_jacDiagABInv = 1.0 / mobility;
-    r.m_rhs = (law.target_radps - m_bodyA->getJointVel(m_linkA)) / mobility;
-    r.m_rhsPenetration = 0.0;
-    r.m_cfm = law.softness / mobility;
-    r.m_appliedImpulse = 0.0;
-    r.m_lowerLimit = law.low_Nms;
-    r.m_upperLimit = law.high_Nms;
+    const btVector3 none(0.0, 0.0, 0.0);
+    btMultiBodySolverConstraint row;
+    row.m_multiBodyA = m_bodyA;
+    row.m_linkA = m_linkA;
+    row.m_deltaVelAindex = m_bodyA->getCompanionId();
+    row.m_jacAindex = at;
+    // Forces that Bullet reports of its rows; nobody reads them.
+    row.m_relpos1CrossNormal = row.m_contactNormal1 = none;
+    row.m_relpos2CrossNormal = row.m_contactNormal2 = none;
+    row.m_jacDiagABInv = 1.0 / response_[own];
+    row.m_rhsPenetration = 0.0;
+    row.m_cfm = 0.0;
+    row.m_appliedImpulse = 0.0;
+    return row;
+  }
+
+  void Add(Row index, const RowLaw& law, btMultiBodyConstraintArray& rows,
+           btMultiBodyJacobianData& data) {
+    if (!pattern_) pattern_ = MakePattern(data);
+    internalSetAppliedImpulse(index, guess_[static_cast<std::size_t>(index)]);
+    btMultiBodySolverConstraint& row = rows.expandNonInitializing();
+    row = *pattern_;
+    row.m_orgConstraint = this;
+    row.m_orgDofIndex = index;
+    row.m_rhs = (law.target_radps - m_bodyA->getJointVel(m_linkA)) * row.m_jacDiagABInv;
+    row.m_lowerLimit = law.low_Nms;
+    row.m_upperLimit = law.high_Nms;
   }
 
   const core::JointDescription& joint_;
-  double armature_kgm2_, damping_Nms_per_rad_, friction_Nm_;
+  double damping_Nms_per_rad_, friction_Nm_;
   double q_rad_ = 0.0, qd_radps_ = 0.0;  // at the start of the step
-  btMultiBodySolverConstraint pattern_;  // Jacobian and response of this step
-  bool filled_ = false;
+  JointInertia::Velocities response_ = JointInertia::Velocities::Zero();
+  std::optional<btMultiBodySolverConstraint> pattern_;  // of this step
   std::array<double, kRowsPerJoint> guess_{};
 };
 
@@ -123,9 +137,11 @@ JointRows::JointRows(const core::RobotDescription& robot, btMultiBody& body) {
 
 JointRows::~JointRows() = default;
 
-void JointRows::Prepare(const RobotState& state, const JointRowImpulses& guess) {
+void JointRows::Prepare(const RobotState& state, const JointInertia& inertia,
+                        const JointRowImpulses& guess) {
   const auto q = Flatten(state.q), qd = Flatten(state.qd);
-  for (std::size_t i = 0; i < kNumJoints; ++i) drives_[i]->Prepare(q[i], qd[i], guess[i]);
+  for (std::size_t i = 0; i < kNumJoints; ++i)
+    drives_[i]->Prepare(q[i], qd[i], inertia.responses(), guess[i]);
 }
 
 JointRowImpulses JointRows::impulses() const {

@@ -7,8 +7,10 @@
 #include <gtest/gtest.h>
 
 #include "controller/stand_up.h"
+#include "core/config/archive.h"
 #include "core/math/so3.h"
 #include "core/robot/whole_body.h"
+#include "core/robot_files/load.h"
 #include "tests/support/engines.h"
 #include "tests/support/robots.h"
 
@@ -83,7 +85,7 @@ TEST_P(EveryEngine, FrictionConeIsExactOnSlopes) {
         const terrains::Heightfield ground = test::FlatGround(mu, 40.0);
         const double slope = std::atan(share * mu);
         const Vec3 downhill(std::cos(direction), std::sin(direction), 0.0);
-        Plant plant(test::Go2(), ground, {},
+        Plant plant(test::Go2(), ground, Physics(),
                     9.81 * (std::sin(slope) * downhill - std::cos(slope) * Vec3::UnitZ()));
         const RobotState start = LowStance();
         plant.Reset(start);
@@ -183,6 +185,28 @@ TEST_P(EveryEngine, JointFrictionHoldsAJointThatIsPushedLessThanItsLimit) {
   tau[Leg::kFL].z() = 0.25;
   for (int i = 0; i < 1000; ++i) plant.Step(tau);
   EXPECT_GT(plant.truth().state.q[Leg::kFL].z(), s.q[Leg::kFL].z() + 0.1);
+}
+
+// B12's legs are light beside their rotors: as rows of the solver these couple so strongly that the
+// iteration reached its limit in nine steps of ten.
+TEST_P(EveryEngine, LightLegsWithRotorsConverge) {
+  const core::RobotDescription robot = core::LoadRobot(core::ReadConfig<core::RobotConfig>(
+      core::LoadConfig(test::SourcePath("robots/b12/b12.yaml"))));
+  const terrains::Heightfield ground = test::FlatGround();
+  Plant plant(robot, ground, Physics(), kGravity);
+  RobotState start;
+  start.q = controller::StandingPose(robot, robot.config.nominal_height_m);
+  start.p_WB.z() = robot.config.nominal_height_m + robot.legs[Leg::kFL].foot_radius_m;
+  plant.Reset(start);
+  constexpr int kSteps = 2000;
+  for (int i = 0; i < kSteps; ++i) {
+    LegArray<Vec3> q = start.q;
+    const bool first = std::sin(0.0126 * i) > 0.0;  // diagonal legs lift in turn
+    for (const Leg leg : {first ? Leg::kFL : Leg::kFR, first ? Leg::kHR : Leg::kHL})
+      q[leg] += std::abs(std::sin(0.0126 * i)) * Vec3(0.0, 0.35, -0.7);
+    plant.Step(Hold(plant.truth().state, q, 90.0, 2.0));
+  }
+  EXPECT_LT(plant.unconverged_steps(), kSteps / 50);
 }
 
 // The integrator is of first order in the step, and these are its errors at 1 kHz: over a second of
