@@ -18,37 +18,69 @@ double LogRatio(const PairedCounts& c) {
          std::log((static_cast<double>(c.events_b) + 0.5) / c.exposure_b);
 }
 
-}  // namespace
+double LogRatio(const CountsInTwoSettings& c) { return LogRatio(c.first) - LogRatio(c.second); }
 
-RatioEstimate BootstrapRateRatio(std::span<const PairedCounts> terrains, std::uint64_t seed,
-                                 int resamples, double confidence) {
-  PairedCounts sum;
-  for (const PairedCounts& t : terrains) sum += t;
-  if (terrains.size() < 3 || sum.events_a + sum.events_b == 0) {
-    return {std::numeric_limits<double>::quiet_NaN(),
-            {0.0, std::numeric_limits<double>::infinity()},
-            1.0};
-  }
+RatioEstimate NothingKnown() {
+  return {std::numeric_limits<double>::quiet_NaN(),
+          {0.0, std::numeric_limits<double>::infinity()},
+          1.0};
+}
+
+template <class Counts>
+Counts Sum(std::span<const Counts> terrains) {
+  Counts sum;
+  for (const Counts& t : terrains) sum += t;
+  return sum;
+}
+
+/// Of the log ratio of resampled terrains, as standard deviation.
+template <class Counts>
+double ResampledError(std::span<const Counts> terrains, std::uint64_t seed, int resamples) {
   core::Rng rng(seed, 0, core::Stream::kBootstrap);
+  const double n = static_cast<double>(terrains.size());
   std::vector<double> log_ratios;
   for (int i = 0; i < resamples; ++i) {
-    PairedCounts resampled;
-    for (std::size_t k = 0; k < terrains.size(); ++k) {
-      const double pick = rng.NextUniform() * static_cast<double>(terrains.size());
-      resampled += terrains[static_cast<std::size_t>(pick)];
-    }
+    Counts resampled;
+    for (std::size_t k = 0; k < terrains.size(); ++k)
+      resampled += terrains[static_cast<std::size_t>(rng.NextUniform() * n)];
     log_ratios.push_back(LogRatio(resampled));
   }
-  const double n = static_cast<double>(terrains.size()), log_ratio = LogRatio(sum);
-  const double error = EstimateMean(log_ratios).deviation * std::sqrt(n / (n - 1.0));
+  return EstimateMean(log_ratios).deviation * std::sqrt(n / (n - 1.0));
+}
+
+template <class Counts>
+RatioEstimate Bootstrap(std::span<const Counts> terrains, std::uint64_t seed, int resamples,
+                        double confidence) {
+  const double log_ratio = LogRatio(Sum(terrains));
+  const double error = ResampledError(terrains, seed, resamples);
   constexpr double kNoSpread = 1e-9;  // rounding, where all terrains are alike
   if (error < kNoSpread)
     return {std::exp(log_ratio), {0.0, std::numeric_limits<double>::infinity()}, 1.0};
-  const boost::math::students_t_distribution<double> t(n - 1.0);
+  const boost::math::students_t_distribution<double> t(static_cast<double>(terrains.size()) - 1.0);
   const double half = quantile(t, 0.5 + 0.5 * confidence) * error;
   return {std::exp(log_ratio),
           {std::exp(log_ratio - half), std::exp(log_ratio + half)},
           2.0 * cdf(complement(t, std::abs(log_ratio) / error))};
+}
+
+constexpr std::size_t kFewestTerrains = 3;
+
+bool AnyEvent(const PairedCounts& c) { return c.events_a + c.events_b > 0; }
+
+}  // namespace
+
+RatioEstimate BootstrapRateRatio(std::span<const PairedCounts> terrains, std::uint64_t seed,
+                                 int resamples, double confidence) {
+  if (terrains.size() < kFewestTerrains || !AnyEvent(Sum(terrains))) return NothingKnown();
+  return Bootstrap(terrains, seed, resamples, confidence);
+}
+
+RatioEstimate BootstrapRatioOfRatios(std::span<const CountsInTwoSettings> terrains,
+                                     std::uint64_t seed, int resamples, double confidence) {
+  const CountsInTwoSettings sum = Sum(terrains);
+  if (terrains.size() < kFewestTerrains || !AnyEvent(sum.first) || !AnyEvent(sum.second))
+    return NothingKnown();
+  return Bootstrap(terrains, seed, resamples, confidence);
 }
 
 }  // namespace scoria::analysis

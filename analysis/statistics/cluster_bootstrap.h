@@ -20,4 +20,11 @@ namespace scoria::analysis {
                                                std::uint64_t seed, int resamples = 2000,
                                                double confidence = 0.95);
 
+/// Ratio of two rate ratios a : b, that of the first setting to that of the second, likewise.
+/// Terrains are resampled with all four counts.
+/// @param terrains  >= 3 with some event in each setting, otherwise as above.
+[[nodiscard]] RatioEstimate BootstrapRatioOfRatios(std::span<const CountsInTwoSettings> terrains,
+                                                   std::uint64_t seed, int resamples = 2000,
+                                                   double confidence = 0.95);
+
 }  // namespace scoria::analysis

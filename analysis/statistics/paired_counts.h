@@ -19,6 +19,17 @@ struct PairedCounts {
   }
 };
 
+/// Counts of two arms on the same terrain, in each of two settings.
+struct CountsInTwoSettings {
+  PairedCounts first, second;
+
+  CountsInTwoSettings& operator+=(const CountsInTwoSettings& other) noexcept {
+    first += other.first;
+    second += other.second;
+    return *this;
+  }
+};
+
 /// Events of a beyond its share of all, if the rates are equal: swapping the arms changes its sign
 /// alone. @pre an exposure > 0.
 [[nodiscard]] inline double ExcessOfA(const PairedCounts& c) noexcept {

@@ -23,6 +23,7 @@ void FillMetrics(const json& j, EpisodeRecord& episode) {
   outcome.stuck = j.at("stuck").get<int>();
   outcome.real_time_factor = j.at("real_time_factor").get<double>();
   j.at("walked_m").get_to(episode.walked_m);
+  episode.engine = j.value("engine", "");  // not in older results
   j.at("counters").get_to(episode.counters);
   episode.events = j.value("events", episode.events);  // not in older results
   episode.state_hash = j.value("state_hash", episode.state_hash);

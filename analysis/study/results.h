@@ -17,6 +17,7 @@ namespace scoria::analysis {
 /// One episode as its folder tells it.
 struct EpisodeRecord {
   std::string id, arm, end, message;
+  std::string engine;              // that moved the robot; empty: older results, logs of robots
   std::vector<std::string> point;  // value of each swept key
   std::uint64_t seed = 0;
   bool has_metrics = false;  // false for a crashed worker or a missing result

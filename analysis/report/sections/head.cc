@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -25,7 +26,16 @@ std::string DesignText(const Design& design) {
   return text;
 }
 
-/// "a, b over speed (0.3, 0.6): 12 episodes, 600 m walked, 4 falls."
+/// " in scoria", " in bullet and scoria"; empty where no episode says.
+std::string EnginesText(const CampaignResults& results) {
+  std::set<std::string> engines;
+  for (const EpisodeRecord& e : results.episodes) {
+    if (!e.engine.empty()) engines.insert(e.engine);
+  }
+  return engines.empty() ? "" : fmt::format(" in {}", fmt::join(engines, " and "));
+}
+
+/// "a, b over speed (0.3, 0.6): 12 episodes in scoria, 600 m walked, 4 falls."
 std::string Summary(const ReportInput& input) {
   const CampaignResults& results = input.results;
   std::string sweep;
@@ -36,8 +46,8 @@ std::string Summary(const ReportInput& input) {
   if (results.design) sweep = DesignText(*results.design);
   const std::string walked =
       results.logs.empty()
-          ? fmt::format("{}{}: {} episodes", fmt::join(results.arms, ", "), sweep,
-                        results.episodes.size())
+          ? fmt::format("{}{}: {} episodes{}", fmt::join(results.arms, ", "), sweep,
+                        results.episodes.size(), EnginesText(results))
           : fmt::format("{}{}: {} {} of robots", fmt::join(results.arms, ", "), sweep,
                         results.logs.size(), results.logs.size() == 1 ? "log" : "logs");
   const auto reason = WhyNotValid(input, "distance_m");

@@ -6,13 +6,28 @@ namespace scoria::analysis {
 std::vector<Section> FieldSections() { return {QualitySection(), FieldLogsSection()}; }
 
 std::vector<Section> AllSections() {
-  return {PointVerdictsSection(),   RateRatiosSection(),      SurvivalSection(),
-          FactorsSection(),         FailuresSection(),        FallsSection(),
-          CostOfTransportSection(), TrackingSection(),        NumbersSection(),
-          DifferencesSection(),     StateEstimationSection(), ContactDetectionSection(),
-          ModelAdaptationSection(), BiasBudgetSection(),      AdaptedTrackingSection(),
-          EnergySection(),          ComputingTimeSection(),   GroundSection(),
-          CourseSection(),          VideosSection(),          DataSection()};
+  return {PointVerdictsSection(),
+          RateRatiosSection(),
+          EnginesSection(),
+          SurvivalSection(),
+          FactorsSection(),
+          FailuresSection(),
+          FallsSection(),
+          CostOfTransportSection(),
+          TrackingSection(),
+          NumbersSection(),
+          DifferencesSection(),
+          StateEstimationSection(),
+          ContactDetectionSection(),
+          ModelAdaptationSection(),
+          BiasBudgetSection(),
+          AdaptedTrackingSection(),
+          EnergySection(),
+          ComputingTimeSection(),
+          GroundSection(),
+          CourseSection(),
+          VideosSection(),
+          DataSection()};
 }
 
 }  // namespace scoria::analysis

@@ -11,6 +11,7 @@ namespace scoria::analysis {
 [[nodiscard]] Section FieldLogsSection();
 [[nodiscard]] Section PointVerdictsSection();
 [[nodiscard]] Section RateRatiosSection();
+[[nodiscard]] Section EnginesSection();
 [[nodiscard]] Section SurvivalSection();
 [[nodiscard]] Section FactorsSection();
 [[nodiscard]] Section FailuresSection();

@@ -80,6 +80,7 @@ TEST(Sections, PlainRunSaysWhatItDoesNotShow) {
                 "Who falls less, at each point, because there is one arm, and none to compare it "
                 "with.",
                 "Rate ratios and power, because there is one arm, and none to compare it with.",
+                "The same in both engines?, because the physics engine was not swept.",
                 "Metres to the first fall, because no episode fell whose way to the first fall is "
                 "known.",
                 "Response over the factors, because the sweep is no design over factors.",

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <array>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "analysis/metrics/metric_text.h"
+#include "analysis/report/sections/sections.h"
+#include "analysis/report/table.h"
+#include "analysis/study/engine_agreement.h"
+
+namespace scoria::analysis {
+namespace {
+
+/// What is told of every arm beside its falls: cost, tracking, and how feet are loaded.
+constexpr std::array<std::string_view, 8> kMetrics = {
+    "cot_mech_abs",  "cot_electrical", "velocity_rmse_mps", "height_rmse_m",
+    "roll_rmse_rad", "pitch_rmse_rad", "foot_force_rms_N",  "peak_foot_force_N"};
+
+std::string IntervalText(const RatioEstimate& r) {
+  return fmt::format("{} ({} to {})", NumberText(r.ratio, 2), NumberText(r.interval.low, 2),
+                     NumberText(r.interval.high, 2));
+}
+
+std::string CountText(const RateEstimate& r) {
+  return fmt::format("{} in {:.0f} m", r.events, r.exposure);
+}
+
+/// One sentence each of falls and of every metric, over the whole sweep.
+BulletList Sentences(const EngineAgreement& agreement, const ArmInEngines& arm) {
+  BulletList list;
+  list.items.push_back(FallsInEngines(agreement, arm));
+  for (const std::string_view key : kMetrics) {
+    std::string sentence = MetricInEngines(agreement, arm, key);
+    if (!sentence.empty()) list.items.push_back(std::move(sentence));
+  }
+  return list;
+}
+
+Table VerdictTable(const EngineAgreement& agreement) {
+  Table table{{"at", "arms", "rate ratio in " + agreement.reference,
+               "rate ratio in " + agreement.engine, "ratio of the two", "p"},
+              {}};
+  for (const VerdictInEngines& v : agreement.verdicts) {
+    table.rows.push_back(
+        {PointName(agreement.axes, v.point), fmt::format("{} : {}", v.in_engine.a, v.in_engine.b),
+         IntervalText(v.in_reference.rates.judged), IntervalText(v.in_engine.rates.judged),
+         IntervalText(v.ratios.judged), PValueText(v.ratios.judged.p_value)});
+  }
+  return table;
+}
+
+/// Falls and differences of the metrics at every point.
+Table PointsTable(const EngineAgreement& agreement, const Metrics& metrics) {
+  Table table{{"at", "arm", "falls in " + agreement.engine, "falls in " + agreement.reference,
+               "rate ratio"},
+              {}};
+  for (const std::string_view key : kMetrics) {
+    if (const Metric* metric = FindMetric(metrics, key))
+      table.header.push_back(TitleWithUnit(metric->info));
+  }
+  for (const ArmInEngines& arm : agreement.arms) {
+    std::vector<std::string>& row = table.rows.emplace_back();
+    row = {PointName(agreement.axes, arm.point), arm.arm, CountText(arm.falls.falls_a),
+           CountText(arm.falls.falls_b), IntervalText(arm.falls.rates.judged)};
+    for (const std::string_view key : kMetrics) {
+      if (FindMetric(metrics, key) == nullptr) continue;
+      const MetricDifference* d = arm.metrics.Find(key);
+      row.push_back(d == nullptr
+                        ? "–"
+                        : FormatDifference(d->pairs.difference, d->metric.scale, d->metric.digits));
+    }
+  }
+  return table;
+}
+
+std::optional<std::string> WhyNot(const ReportInput& input) {
+  for (const Axis& axis : input.results.axes) {
+    if (axis.key != kEngineKey) continue;
+    if (axis.values.size() < 2) return "the sweep names one physics engine";
+    if (!input.HasMetrics()) return "no episode left numbers";
+    return std::nullopt;
+  }
+  return "the physics engine was not swept";
+}
+
+Blocks Build(const ReportInput& input) {
+  const EngineAgreement agreement = *CompareEngines(input.results, input.metrics);
+  Blocks blocks;
+  BulletList verdicts;
+  for (const VerdictInEngines& v : agreement.verdicts) {
+    if (v.point.empty()) verdicts.items.push_back(VerdictsInEngines(agreement, v));
+  }
+  if (!verdicts.items.empty()) {
+    blocks.push_back(verdicts);
+    blocks.push_back(VerdictTable(agreement));
+  }
+  for (const ArmInEngines& arm : agreement.arms) {
+    if (!arm.point.empty()) continue;
+    blocks.push_back(
+        Heading{fmt::format("{}, {} against {}", arm.arm, agreement.engine, agreement.reference)});
+    blocks.push_back(Sentences(agreement, arm));
+  }
+  blocks.push_back(
+      Heading{fmt::format("{} minus {}, at each point", agreement.engine, agreement.reference)});
+  blocks.push_back(PointsTable(agreement, input.metrics));
+  blocks.push_back(Note{
+      "Episodes of the same arm, seed and point in pairs, one in each engine. Falls: ratio of "
+      "falls "
+      "per metre, with intervals as above. Metrics: mean over seeds of the differences, with "
+      "Student's 95 % interval. Ratio of the two: by how much the rate ratio of two arms differs "
+      "between the engines, exact given the margins of the table of falls (odds ratio), and from "
+      "six "
+      "terrains on widened to the interval from resampling terrains. Intervals are not corrected "
+      "for "
+      "looking at many numbers: about one in twenty misses the truth by chance. That no difference "
+      "is shown does not say that there is none."});
+  return blocks;
+}
+
+}  // namespace
+
+Section EnginesSection() { return {"engines", "The same in both engines?", WhyNot, Build}; }
+
+}  // namespace scoria::analysis
