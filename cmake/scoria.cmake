@@ -2,6 +2,7 @@
 
 set(SCORIA_MARCH "x86-64-v3" CACHE STRING "Value of -march; empty for the compiler's default")
 option(SCORIA_WERROR "Warnings are errors" OFF)
+option(SCORIA_PCH "Precompile the headers that most sources include" OFF)
 set(SCORIA_SANITIZE "" CACHE STRING "Value of -fsanitize, such as address,undefined; with fuzzer-no-link the fuzz targets are programs")
 
 if(NOT CMAKE_BUILD_TYPE)
@@ -19,6 +20,8 @@ target_compile_options(scoria_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wold-style-cast
   # g++ 12 reports these falsely, inside the standard library, fmt and Eigen, when it inlines at -O3.
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow>
+  # And these of what comes from precompiled headers.
+  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${SCORIA_PCH}>>:-Wno-stringop-overread>
   $<$<BOOL:${SCORIA_WERROR}>:-Werror>
   $<$<BOOL:${SCORIA_MARCH}>:-march=${SCORIA_MARCH}>)
 if(SCORIA_SANITIZE)
@@ -27,10 +30,8 @@ if(SCORIA_SANITIZE)
   target_link_options(scoria_options INTERFACE -fsanitize=${SCORIA_SANITIZE})
 endif()
 
-# scoria_library(NAME SOURCES a.cc ... PUBLIC targets PRIVATE targets): static library scoria::NAME.
-# Headers that most sources include, parsed once for all of them (SCORIA_PCH). Off where a compiler cache does more, so
-# that a source which lacks an include does not go unseen.
-option(SCORIA_PCH "precompile common headers" OFF)
+# scoria_precompiled(NAME HEADERS <a> ... LINK targets): headers parsed once for all that use them (SCORIA_PCH). Off where
+# a compiler cache does more, so that a source which lacks an include does not go unseen.
 set(scoria_pch_source ${CMAKE_CURRENT_LIST_DIR}/precompiled.cc)
 function(scoria_precompiled name)
   if(NOT SCORIA_PCH)
@@ -47,6 +48,7 @@ function(scoria_use_precompiled target name)
   endif()
 endfunction()
 
+# scoria_library(NAME SOURCES a.cc ... PUBLIC targets PRIVATE targets): static library scoria::NAME.
 function(scoria_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(scoria_${name} STATIC ${ARG_SOURCES})
