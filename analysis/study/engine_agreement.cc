@@ -176,7 +176,7 @@ std::string MetricInEngines(const EngineAgreement& agreement, const ArmInEngines
                   FormatDifference(e, d->metric.scale, d->metric.digits));
   const std::string what = fmt::format("{} of {}", TitleWithUnit(d->metric), arm.arm);
   if (e.count < 2 || e.interval.Contains(0.0))
-    return fmt::format("{}: no difference is shown: {}.", what, numbers);
+    return fmt::format("{}: no difference is shown, {}.", what, numbers);
   return fmt::format("{} is {} in {}: {}.", what, e.mean < 0.0 ? "smaller" : "larger",
                      agreement.engine, numbers);
 }
@@ -203,11 +203,12 @@ std::string VerdictsInEngines(const EngineAgreement& agreement, const VerdictInE
   }
   if (in_one.empty()) {
     return fmt::format(
-        "The verdict on {} is the same in both engines, that no difference in falls is shown: {}.",
+        "In neither engine a difference in falls between {} is shown, nor that the engines differ: "
+        "{}.",
         arms, numbers);
   }
-  return fmt::format("The verdict is the same in both engines: {} {} {}: {}.", one.a, in_one, one.b,
-                     numbers);
+  return fmt::format("Both engines show that {} {} {}; that they differ is not shown: {}.", one.a,
+                     in_one, one.b, numbers);
 }
 
 }  // namespace scoria::analysis

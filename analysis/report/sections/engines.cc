@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -17,9 +18,19 @@ constexpr std::array<std::string_view, 8> kMetrics = {
     "cot_mech_abs",  "cot_electrical", "velocity_rmse_mps", "height_rmse_m",
     "roll_rmse_rad", "pitch_rmse_rad", "foot_force_rms_N",  "peak_foot_force_N"};
 
-std::string IntervalText(const RatioEstimate& r) {
-  return fmt::format("{} ({} to {})", NumberText(r.ratio, 2), NumberText(r.interval.low, 2),
-                     NumberText(r.interval.high, 2));
+std::string RatioText(const RatioEstimate& r) {
+  if (std::isnan(r.ratio)) return "unknown";
+  const auto text = [](double x) { return std::isinf(x) ? "∞" : NumberText(x, 2); };
+  return fmt::format("{} ({} to {})", text(r.ratio), text(r.interval.low), text(r.interval.high));
+}
+
+std::string DifferenceText(const MetricDifference* d) {
+  if (d == nullptr || d->pairs.difference.count < 2) return "–";
+  const MeanEstimate& e = d->pairs.difference;
+  const auto text = [d](double x) {
+    return fmt::format("{:+.{}f}", d->metric.scale * x, d->metric.digits);
+  };
+  return fmt::format("{} ({} to {})", text(e.mean), text(e.interval.low), text(e.interval.high));
 }
 
 std::string CountText(const RateEstimate& r) {
@@ -44,8 +55,8 @@ Table VerdictTable(const EngineAgreement& agreement) {
   for (const VerdictInEngines& v : agreement.verdicts) {
     table.rows.push_back(
         {PointName(agreement.axes, v.point), fmt::format("{} : {}", v.in_engine.a, v.in_engine.b),
-         IntervalText(v.in_reference.rates.judged), IntervalText(v.in_engine.rates.judged),
-         IntervalText(v.ratios.judged), PValueText(v.ratios.judged.p_value)});
+         RatioText(v.in_reference.rates.judged), RatioText(v.in_engine.rates.judged),
+         RatioText(v.ratios.judged), PValueText(v.ratios.judged.p_value)});
   }
   return table;
 }
@@ -62,13 +73,10 @@ Table PointsTable(const EngineAgreement& agreement, const Metrics& metrics) {
   for (const ArmInEngines& arm : agreement.arms) {
     std::vector<std::string>& row = table.rows.emplace_back();
     row = {PointName(agreement.axes, arm.point), arm.arm, CountText(arm.falls.falls_a),
-           CountText(arm.falls.falls_b), IntervalText(arm.falls.rates.judged)};
+           CountText(arm.falls.falls_b), RatioText(arm.falls.rates.judged)};
     for (const std::string_view key : kMetrics) {
       if (FindMetric(metrics, key) == nullptr) continue;
-      const MetricDifference* d = arm.metrics.Find(key);
-      row.push_back(d == nullptr
-                        ? "–"
-                        : FormatDifference(d->pairs.difference, d->metric.scale, d->metric.digits));
+      row.push_back(DifferenceText(arm.metrics.Find(key)));
     }
   }
   return table;
@@ -105,16 +113,13 @@ Blocks Build(const ReportInput& input) {
       Heading{fmt::format("{} minus {}, at each point", agreement.engine, agreement.reference)});
   blocks.push_back(PointsTable(agreement, input.metrics));
   blocks.push_back(Note{
-      "Episodes of the same arm, seed and point in pairs, one in each engine. Falls: ratio of "
-      "falls "
-      "per metre, with intervals as above. Metrics: mean over seeds of the differences, with "
-      "Student's 95 % interval. Ratio of the two: by how much the rate ratio of two arms differs "
-      "between the engines, exact given the margins of the table of falls (odds ratio), and from "
-      "six "
-      "terrains on widened to the interval from resampling terrains. Intervals are not corrected "
-      "for "
-      "looking at many numbers: about one in twenty misses the truth by chance. That no difference "
-      "is shown does not say that there is none."});
+      "Episodes of the same arm, seed and point in pairs, one in each engine; in brackets 95 % "
+      "intervals. Falls: ratio of falls per metre, judged as those of arms. Metrics: mean over "
+      "seeds of the differences, with Student's interval. Ratio of the two: by how much the rate "
+      "ratio of two arms differs between the engines, exact given the margins of the table of "
+      "falls (odds ratio), and from six terrains on widened to the interval from resampling "
+      "terrains. Intervals are not corrected for looking at many numbers: about one in twenty "
+      "misses the truth by chance. That no difference is shown does not say that there is none."});
   return blocks;
 }
 

@@ -110,7 +110,7 @@ TEST(EngineAgreement, SentencesSayWhatIsShown) {
             "height RMSE [mm] of ags is larger in bullet: 11.0 in bullet, 10.0 in scoria, "
             "difference +1.0 (95 %: +1.0 to +1.1).");
   EXPECT_EQ(MetricInEngines(all, all.arms[0], "roll_rmse_rad")
-                .find("roll RMSE [deg] of ags: no difference is shown: "),
+                .find("roll RMSE [deg] of ags: no difference is shown, "),
             0u)
       << MetricInEngines(all, all.arms[0], "roll_rmse_rad");
   EXPECT_EQ(MetricInEngines(all, all.arms[0], "cot_mech_abs"), "") << "nobody has it";
@@ -137,12 +137,14 @@ TEST(EngineAgreement, VerdictOnArmsDependsOnTheEngineOrNot) {
   EXPECT_NE(turned.find("in scoria, 4.00 (95 %: "), std::string::npos) << turned;
   EXPECT_NE(turned.find("in bullet; ratio of the two 16.00 (95 %: "), std::string::npos) << turned;
   const std::string same = verdict([](S arm, S, int) { return arm == "ags" ? 4 : 1; });
-  EXPECT_TRUE(begins(same, "The verdict is the same in both engines: ags falls more than sgs: "))
+  EXPECT_TRUE(begins(
+      same, "Both engines show that ags falls more than sgs; that they differ is not shown: "))
       << same;
   const std::string none = verdict([](S, S, int) { return 1; });
-  EXPECT_TRUE(begins(none,
-                     "The verdict on ags and sgs is the same in both engines, that no difference "
-                     "in falls is shown: "))
+  EXPECT_TRUE(
+      begins(none,
+             "In neither engine a difference in falls between ags and sgs is shown, nor that "
+             "the engines differ: "))
       << none;
   const std::string one = verdict([](S arm, S engine, int seed) {
     if (arm == "ags" && engine == "scoria") return 2;
@@ -168,7 +170,7 @@ TEST(EngineAgreement, ReportHasItsSectionWhereTheEngineIsSwept) {
   const std::string text = ToPlainText(compose());
   for (const char* expected :
        {"64 episodes in bullet and scoria", "The same in both engines?",
-        "The verdict is the same in both engines: ags falls more than sgs: ",
+        "Both engines show that ags falls more than sgs; that they differ is not shown: ",
         "height RMSE [mm] of sgs is larger in bullet: ", "bullet minus scoria, at each point"})
     EXPECT_NE(text.find(expected), std::string::npos) << expected;
   results.axes[1].key = "terrain.friction_scale";
