@@ -80,36 +80,38 @@ void GaitTimer::Break() noexcept {
   reference_stride_s_.reset();
 }
 
-void GaitTimer::Add(double time_s, const logs::PerLeg<bool>& contact) {
+void GaitTimer::Add(double time_s, const logs::PerLeg<bool>& contact, const OnStride& on_stride) {
   for (const Leg leg : kLegs) {
     LegState& state = legs_[leg];
     const bool now = contact[static_cast<std::size_t>(leg)];
     if (!started_) state.on = now;
     if (started_ && now != state.raw) state.raw_s = 0.5 * (last_s_ + time_s);
     state.raw = now;
-    if (state.raw_s && time_s - *state.raw_s >= kBounce_s) Settle(leg, state);
+    if (state.raw_s && time_s - *state.raw_s >= kBounce_s) Settle(leg, state, on_stride);
   }
   started_ = true;
   last_s_ = time_s;
 }
 
 /// The last change of the contact has lasted.
-void GaitTimer::Settle(Leg leg, LegState& state) {
+void GaitTimer::Settle(Leg leg, LegState& state, const OnStride& on_stride) {
   if (state.on == state.raw) return;
   state.on = state.raw;
   if (state.raw) {
-    Touchdown(leg, *state.raw_s);
+    Touchdown(leg, *state.raw_s, on_stride);
   } else {
     state.up_s = state.raw_s;
   }
 }
 
-void GaitTimer::Touchdown(Leg leg, double time_s) {
+void GaitTimer::Touchdown(Leg leg, double time_s, const OnStride& on_stride) {
   LegState& state = legs_[leg];
   LegTiming& timing = timing_.legs[leg];
   if (state.down_s && state.up_s && time_s - *state.down_s <= kLongest_s) {
-    timing.Add(time_s - *state.down_s, *state.up_s - *state.down_s);
-    if (leg == Leg::kFL) reference_stride_s_ = time_s - *state.down_s;
+    const Stride stride{time_s - *state.down_s, *state.up_s - *state.down_s};
+    timing.Add(stride.stride_s, stride.stance_s);
+    if (on_stride) on_stride(stride);
+    if (leg == Leg::kFL) reference_stride_s_ = stride.stride_s;
   }
   if (leg == Leg::kFL) reference_s_ = time_s;
   if (reference_s_ && reference_stride_s_) {

@@ -3,6 +3,7 @@
 
 #include <complex>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 
@@ -38,6 +39,11 @@ struct LegTiming {
   bool operator==(const LegTiming&) const = default;
 };
 
+/// From a touchdown of a foot to its next one.
+struct Stride {
+  double stride_s = 0.0, stance_s = 0.0;
+};
+
 /// Times of the gait of an episode, or of several added up.
 struct GaitTiming {
   LegArray<LegTiming> legs;
@@ -52,7 +58,10 @@ class GaitTimer {
  public:
   static constexpr double kBounce_s = 0.08, kLongest_s = 3.0;
 
-  void Add(double time_s, const logs::PerLeg<bool>& contact);
+  /// @param on_stride  if there is one: is told of the strides of any leg that end with this
+  /// sample.
+  using OnStride = std::function<void(const Stride&)>;
+  void Add(double time_s, const logs::PerLeg<bool>& contact, const OnStride& on_stride = {});
   /// Samples before and after belong to different stretches of walking.
   void Break() noexcept;
   [[nodiscard]] const GaitTiming& timing() const noexcept { return timing_; }
@@ -63,8 +72,8 @@ class GaitTimer {
     std::optional<double> raw_s;         // since when that is; none: since the stretch began
     std::optional<double> down_s, up_s;  // of the stride that is under way
   };
-  void Settle(Leg leg, LegState& state);
-  void Touchdown(Leg leg, double time_s);
+  void Settle(Leg leg, LegState& state, const OnStride& on_stride);
+  void Touchdown(Leg leg, double time_s, const OnStride& on_stride);
 
   GaitTiming timing_;
   LegArray<LegState> legs_;

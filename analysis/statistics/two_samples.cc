@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include <boost/math/distributions/students_t.hpp>
 
@@ -47,6 +48,21 @@ TwoSamples CompareSamples(std::span<const double> a, std::span<const double> b, 
   out.p = 2.0 * cdf(complement(t, std::abs(difference) / error));
   const double correction = 1.0 - 3.0 / (4.0 * (freedoms_a + freedoms_b) - 1.0);  // Hedges
   out.effect = correction * difference / std::sqrt(pooled);
+  return out;
+}
+
+TwoSamples CompareMagnitudes(std::span<const double> a, std::span<const double> b,
+                             double confidence) {
+  const auto logarithms = [](std::span<const double> values) {
+    std::vector<double> logs;
+    for (const double v : values) logs.push_back(std::log(v));
+    return logs;
+  };
+  TwoSamples out = CompareSamples(logarithms(a), logarithms(b), confidence);
+  out.mean_a = std::exp(out.mean_a);
+  out.mean_b = std::exp(out.mean_b);
+  out.difference = {out.mean_a * std::expm1(out.difference.low),
+                    out.mean_a * std::expm1(out.difference.high)};
   return out;
 }
 

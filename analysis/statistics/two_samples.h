@@ -26,4 +26,11 @@ struct TwoSamples {
 [[nodiscard]] TwoSamples CompareSamples(std::span<const double> a, std::span<const double> b,
                                         double confidence = 0.95);
 
+/// The same of magnitudes, which scatter in proportion to their size: the test and the effect are
+/// of their logarithms, means are geometric, and the interval is that of the ratio, as a difference
+/// from the first mean.
+/// @param a, b  not empty, positive.
+[[nodiscard]] TwoSamples CompareMagnitudes(std::span<const double> a, std::span<const double> b,
+                                           double confidence = 0.95);
+
 }  // namespace scoria::analysis

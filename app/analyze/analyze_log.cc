@@ -215,6 +215,7 @@ class Analysis {
     const ReferenceSeries series =
         ReadReferenceSeries(rows_, survey_.first_s, mapping ? mapping->base_topic : "");
     analysis::MetricsAccumulator whole(options_.gravity_mps2);
+    analysis::SignalAccumulator signals(options_.gravity_mps2, robot_.robot.get());
     WalkParts parts(series.sequencer, options_.gravity_mps2);
     constexpr std::size_t kMostRows = 20'000;
     analysis::CourseFigure course(kMostRows);
@@ -224,6 +225,7 @@ class Analysis {
     analysis::FieldRows rows(setup_, [&](const logs::Row& row, const logs::RowGroups& filled) {
       stand_ins |= filled;
       whole.AddRow(row, filled);
+      signals.AddRow(row);
       if (!Has(filled, RowGroup::kTruth)) trajectory.AddRow(row);
       parts.AddRow(row, filled, completed->falls());
       course.Add(row);
@@ -244,6 +246,7 @@ class Analysis {
     metrics.duration_s = survey_.last_s - survey_.first_s;
     metrics.outcome = {static_cast<int>(rows.falls().size()), std::nullopt, std::nullopt};
     finish(metrics);
+    result_.signals = signals.Finish();
     result_.parts = parts.Finish();
     for (WalkParts::Part& part : result_.parts) finish(part.metrics);
     if (!series.cpu_power_W.empty()) {

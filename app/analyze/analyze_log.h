@@ -9,6 +9,7 @@
 #include "analysis/field/field_rows.h"
 #include "analysis/field/trajectory_error.h"
 #include "analysis/field/truth_alignment.h"
+#include "analysis/metrics/signal_distributions.h"
 #include "analysis/study/field_log.h"
 #include "app/analyze/labels.h"
 #include "app/analyze/walk_parts.h"
@@ -29,6 +30,7 @@ struct AnalyzeOptions {
 /// One log, analysed.
 struct LogAnalysis {
   analysis::FieldLog log;
+  analysis::SignalDistributions signals;
   std::vector<WalkParts::Part> parts;
   std::optional<double> cpu_power_W = std::nullopt;  // mean
   /// Of a truth of markers. Where it is found, all that is computed with the truth is so of the

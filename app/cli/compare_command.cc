@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <memory>
+#include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -22,9 +24,19 @@ struct Options {
   bool fail = false;
 };
 
-void Write(const WalkComparison& comparison, const analysis::Document& page,
+/// For a terminal.
+analysis::Document WithoutFigures(analysis::Document page) {
+  for (analysis::Chapter& chapter : page.chapters)
+    std::erase_if(chapter.blocks, [](const analysis::Block& block) {
+      return std::holds_alternative<analysis::CaptionedFigure>(block);
+    });
+  return page;
+}
+
+void Write(const WalkComparison& comparison, analysis::Document page,
            const std::filesystem::path& folder) {
   core::CreateFolders(folder);
+  page = analysis::DrawFigures(std::move(page), folder / "figures");
   core::WriteText(folder / "compare.json", analysis::JsonText(ComparisonJson(comparison)));
   core::WriteText(folder / "compare.html", analysis::ToHtml(page));
   fmt::print("{}\n", (folder / "compare.html").string());
@@ -39,8 +51,8 @@ void AddCompare(CLI::App& app, int& exit_code) {
   const char* kSet = "a log, a folder of logs, a run, or a campaign's arm as FOLDER:ARM";
   command->add_option("first", o->a, kSet)->required();
   command->add_option("second", o->b, kSet)->required();
-  command->add_option("-o,--out", o->out, "folder for compare.html and compare.json");
-  command->add_option("--alpha", o->alpha, "of all metrics together")
+  command->add_option("-o,--out", o->out, "folder for compare.html, its figures and compare.json");
+  command->add_option("--alpha", o->alpha, "of all metrics and distributions together")
       ->capture_default_str()
       ->check(CLI::Range(1e-6, 0.5));
   command->add_option("--robot", o->how.robot,
@@ -56,7 +68,7 @@ void AddCompare(CLI::App& app, int& exit_code) {
     const WalkComparison comparison =
         CompareWalks(LoadWalks(o->a, o->how, by_logs), LoadWalks(o->b, o->how, by_logs), o->alpha);
     const analysis::Document page = ComparisonDocument(comparison);
-    fmt::print("{}", analysis::ToPlainText(page));
+    fmt::print("{}", analysis::ToPlainText(WithoutFigures(page)));
     if (!o->out.empty()) Write(comparison, page, o->out);
     if (o->fail && ComparisonJson(comparison).at("different")) exit_code = kFailed;
   });

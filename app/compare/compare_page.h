@@ -15,12 +15,13 @@ namespace scoria::app {
 struct WalkComparison {
   WalkSet a, b;
   analysis::SetComparison found;
-  double alpha = 0.05;  // of all metrics together
+  double alpha = 0.05;  // of all metrics and distributions together
 };
 
 [[nodiscard]] WalkComparison CompareWalks(WalkSet a, WalkSet b, double alpha);
 
-/// The page: a verdict first, then a table per family with a sentence for each metric.
+/// The page: a verdict first, then a table per family with a sentence for each metric, and a figure
+/// and a sentence for each distribution.
 [[nodiscard]] analysis::Document ComparisonDocument(const WalkComparison& comparison);
 
 /// The same as JSON.

@@ -30,7 +30,17 @@ bool HoldsResults(const fs::path& folder) {
 void Add(const LogEntry& entry, const AnalyzeOptions& options, WalkSet& set) {
   LogAnalysis analysis = AnalyzeLog(entry.files, entry.id, entry.robot_hint, options);
   set.ids.push_back(entry.id);
-  set.walks.push_back(std::move(analysis.log.metrics));
+  set.walks.push_back({std::move(analysis.log.metrics), std::move(analysis.signals)});
+}
+
+/// As it was measured while it walked; signals as its log tells them, if it was kept.
+void AddEpisode(const analysis::EpisodeRecord& episode, const AnalyzeOptions& options,
+                WalkSet& set) {
+  const fs::path log = episode.folder / "log.mcap";
+  set.ids.push_back(episode.id);
+  set.walks.push_back({episode.metrics, {}});
+  if (fs::exists(log))
+    set.walks.back().signals = AnalyzeLog({log}, episode.id, {}, options).signals;
 }
 
 void AddLogOf(const analysis::EpisodeRecord& episode, const AnalyzeOptions& options, WalkSet& set) {
@@ -57,10 +67,9 @@ WalkSet OfResults(const fs::path& folder, const std::optional<std::string>& arm,
     if (!episode.has_metrics || (arm && episode.arm != *arm)) continue;
     if (by_logs) {
       AddLogOf(episode, options, set);
-      continue;
+    } else {
+      AddEpisode(episode, options, set);
     }
-    set.ids.push_back(episode.id);
-    set.walks.push_back(episode.metrics);
   }
   return set;
 }

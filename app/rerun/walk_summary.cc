@@ -11,38 +11,53 @@
 namespace scoria::app {
 namespace {
 
-/// Velocities are means over so long; steps that differ by less are one.
+/// Velocities are means over so long; slots that differ by less from the step before are of it.
 constexpr double kSlot_s = 0.25, kSame_mps = 0.02, kSame_radps = 0.03;
 
-/// Makes steps of a velocity that changes at any time.
+/// Makes steps of a velocity that changes at any time. A step's velocity is the mean over all of
+/// it, so that way and turn are kept, however coarse the steps.
 class Programme {
  public:
   void Add(double time_s, const Vec3& v_x_v_y_w_z) {
-    if (count_ > 0 && time_s >= slot_s_ + kSlot_s) EndSlot();
-    if (count_ == 0) slot_s_ = time_s;
-    sum_ += v_x_v_y_w_z;
-    ++count_;
+    if (slot_.count > 0 && time_s >= slot_.begin_s + kSlot_s) EndSlot();
+    if (slot_.count == 0) slot_.begin_s = time_s;
+    slot_.sum += v_x_v_y_w_z;
+    ++slot_.count;
   }
 
   [[nodiscard]] std::vector<HeldVelocity> Finish() {
-    if (count_ > 0) EndSlot();
+    if (slot_.count > 0) EndSlot();
+    if (step_.count > 0) EndStep();
     return std::move(steps_);
   }
 
  private:
+  struct Stretch {
+    double begin_s = 0.0;
+    Vec3 sum = Vec3::Zero();
+    std::uint64_t count = 0;
+    [[nodiscard]] Vec3 Mean() const { return sum / static_cast<double>(count); }
+  };
+
   void EndSlot() {
-    const Vec3 v = sum_ / static_cast<double>(count_);
-    sum_.setZero();
-    count_ = 0;
-    const bool same = !steps_.empty() && std::abs(steps_.back().v_x_mps - v.x()) < kSame_mps &&
-                      std::abs(steps_.back().v_y_mps - v.y()) < kSame_mps &&
-                      std::abs(steps_.back().w_z_radps - v.z()) < kSame_radps;
-    if (!same) steps_.push_back({slot_s_, v.x(), v.y(), v.z()});
+    if (step_.count > 0) {
+      const Vec3 change = (slot_.Mean() - step_.Mean()).cwiseAbs();
+      if (change.x() >= kSame_mps || change.y() >= kSame_mps || change.z() >= kSame_radps)
+        EndStep();
+    }
+    if (step_.count == 0) step_.begin_s = slot_.begin_s;
+    step_.sum += slot_.sum;
+    step_.count += slot_.count;
+    slot_ = {};
   }
 
-  double slot_s_ = 0.0;
-  Vec3 sum_ = Vec3::Zero();
-  std::uint64_t count_ = 0;
+  void EndStep() {
+    const Vec3 v = step_.Mean();
+    steps_.push_back({step_.begin_s, v.x(), v.y(), v.z()});
+    step_ = {};
+  }
+
+  Stretch slot_, step_;
   std::vector<HeldVelocity> steps_;
 };
 
@@ -95,9 +110,9 @@ class FeetMeter {
         if (foot.top_m) EndSwing(foot, p_WF[leg].z());
         foot.sum += p_WF[leg];
         ++foot.count;
-        foot.last_m = p_WF[leg].z();
         continue;
       }
+      if (foot.count > 0) foot.stood_m = foot.sum.z() / static_cast<double>(foot.count);
       if (foot.count > kLeastStance) roughness_.Add(foot.sum / static_cast<double>(foot.count));
       foot.sum.setZero();
       foot.count = 0;
@@ -122,11 +137,13 @@ class FeetMeter {
   struct Foot {
     Vec3 sum = Vec3::Zero();
     std::uint64_t count = 0;
-    double last_m = 0.0;
+    std::optional<double> stood_m = std::nullopt;  // mean height of the stance before the swing
     std::optional<double> top_m = std::nullopt;
   };
+  /// A swing that ends lower than it began counts: its apex was meant over its begin. Over what one
+  /// was meant that goes up is not known, because it touches earlier than planned, or later.
   void EndSwing(Foot& foot, double down_m) {
-    lifts_m_.push_back(*foot.top_m - std::max(foot.last_m, down_m));
+    if (foot.stood_m && down_m <= *foot.stood_m) lifts_m_.push_back(*foot.top_m - *foot.stood_m);
     foot.top_m.reset();
   }
 

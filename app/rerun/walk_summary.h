@@ -30,8 +30,9 @@ struct WalkSummary {
   double duration_s = 0.0;
   bool commanded = false;  // velocities are the operator's; else those walked
   std::vector<HeldVelocity> velocities;
-  std::optional<GaitSummary> gait;     // of the log's plan
-  std::optional<double> swing_lift_m;  // median height of a swing over the places of its ends
+  std::optional<GaitSummary> gait;  // of the log's plan
+  std::optional<double>
+      swing_lift_m;  // median height of a swing over its begin, of those that end lower
   analysis::FootholdRoughness roughness;
   std::optional<double> mass_kg;  // learned without a tare: torques may misread
 };

@@ -44,7 +44,8 @@ struct LogParams {
     a.Field("keep", keep, {.doc = "everything, the time around each fall, or nothing but metrics"});
     a.Field("topics", topics,
             {.doc = "all, or those that the reference framework's recorder writes, as in its field "
-                    "logs: no rows, which report, render and replay need"});
+                    "logs: no rows, which report, render and replay --set need; replay --variant, "
+                    "analyze and compare read such a log by its mapping"});
     a.Field("before_fall_s", before_fall_s, {.min = 0.0, .max = 600.0});
     a.Field("after_fall_s", after_fall_s, {.min = 0.0, .max = 600.0});
   }

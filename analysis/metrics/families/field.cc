@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Numbers that need no truth: they are for logs of robots, and tell of simulations the same.
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "analysis/metrics/families/families.h"
-#include "core/robot/legs.h"
+#include "analysis/signals/stance_slip.h"
 
 namespace scoria::analysis {
 namespace {
@@ -109,44 +108,20 @@ class PlanAgreement final : public RowMetric {
   double agreed_ = 0.0, rows_ = 0.0;
 };
 
-/// How far a foot goes on the map from its touchdown to its lift-off.
 class StanceSlip final : public RowMetric {
  public:
   void AddRow(const logs::Row& row) override {
-    const bool walks = IsWalking(row) && row.true_contacts->p_WF_m;
-    for (std::size_t leg = 0; leg < legs_.size(); ++leg) {
-      Foot& foot = legs_[leg];
-      if (!walks || row.episode->segment != segment_) {
-        foot = {};
-        continue;
-      }
-      const double* p = &(*row.true_contacts->p_WF_m)[3 * leg];
-      if (!row.true_contacts->contact[leg]) {
-        if (foot.down) AddStance(foot);
-        foot = {.seen_up = true};
-      } else if (foot.seen_up) {
-        if (!foot.down) foot.touchdown = {p[0], p[1]};
-        foot.now = {p[0], p[1]};
-        foot.down = true;
-      }
-    }
-    segment_ = row.episode->segment;
+    slips_.AddRow(row, [this](double slip_m) {
+      sum_m_ += slip_m;
+      ++stances_;
+    });
   }
   [[nodiscard]] std::optional<Measured> Value() const override {
     return MeasuredIf(stances_ > 0.0, sum_m_ / stances_, stances_);
   }
 
  private:
-  struct Foot {
-    bool seen_up = false, down = false;
-    std::array<double, 2> touchdown{}, now{};
-  };
-  void AddStance(const Foot& foot) {
-    sum_m_ += std::hypot(foot.now[0] - foot.touchdown[0], foot.now[1] - foot.touchdown[1]);
-    ++stances_;
-  }
-  std::array<Foot, kNumLegs> legs_;
-  std::uint32_t segment_ = 0;
+  StanceSlips slips_;
   double sum_m_ = 0.0, stances_ = 0.0;
 };
 

@@ -6,6 +6,7 @@
 
 #include "analysis/plots/bar_plot.h"
 #include "analysis/plots/course_plot.h"
+#include "analysis/plots/distribution_plot.h"
 #include "analysis/plots/fit_plot.h"
 #include "analysis/plots/rate_plot.h"
 #include "analysis/plots/response_plot.h"
@@ -122,6 +123,16 @@ TEST(SurvivalPlot, DrawsStepsBandsAndCensoredLengths) {
   EXPECT_NE(script.find("$s1c << EOD\n3 0.666666667 \nEOD"), std::string::npos);
   EXPECT_NE(script.find("lc rgb '#d55e00' t 'a', $s1c"), std::string::npos);
   EXPECT_EQ(script.find("$s0"), std::string::npos);
+}
+
+TEST(DistributionPlot, DrawsEveryWalkThinAndTheMeanThick) {
+  const DistributionPlot plot{
+      "d", "t", "x", {{"first", {{0, 1, 2}}}, {"second", {{0, 1, 4}, {0, 3, 8}}}}};
+  const std::string script = Drawn(DrawDistributions(plot));
+  EXPECT_NE(script.find("$w1_1 << EOD\n0 0 \n3 0.5 \n8 1 \nEOD"), std::string::npos) << script;
+  EXPECT_NE(script.find("$m1 << EOD\n0 0 \n2 0.5 \n6 1 \nEOD"), std::string::npos);
+  EXPECT_NE(script.find("set xrange [0:3]"), std::string::npos) << "the middle is within 99 %";
+  EXPECT_NE(script.find("$m1 u 1:2 w l lw 2.5 lc rgb '#d55e00' t 'second'"), std::string::npos);
 }
 
 TEST(ResponsePlot, HasAPanelForEachFactor) {

@@ -36,6 +36,17 @@ TEST(TwoSamples, AskOfASingleWalkWhetherItIsOneOfTheOthers) {
   EXPECT_NEAR(*turned.effect, -*s.effect, 1e-12);
 }
 
+TEST(TwoSamples, MagnitudesAreComparedByTheirRatio) {
+  const std::vector<double> a = {10.0, 20.0, 40.0}, b = {40.0, 80.0, 160.0};
+  const TwoSamples s = CompareMagnitudes(a, b);
+  EXPECT_NEAR(s.mean_a, 20.0, 1e-12);
+  EXPECT_NEAR(s.mean_b, 80.0, 1e-12);
+  // The logarithms differ by ln 4, with the same scatter ln 2: t = 2 / sqrt(2 / 3).
+  EXPECT_NEAR(*s.effect, (1.0 - 3.0 / 15.0) * 2.0, 1e-12);
+  EXPECT_NEAR(*s.p, 0.0705, 1e-4);
+  EXPECT_NEAR((s.mean_a + s.difference.low) * (s.mean_a + s.difference.high), 80.0 * 80.0, 1e-6);
+}
+
 TEST(TwoSamples, WithoutScatterThereIsNoTest) {
   EXPECT_FALSE(CompareSamples(std::vector{1.0}, std::vector{2.0}).p);
   EXPECT_FALSE(CompareSamples(std::vector{1.0, 1.0}, std::vector{2.0, 2.0}).p);
