@@ -22,41 +22,6 @@ bool IsBroken(const EpisodeRecord& e) {
   return !e.has_metrics || e.end == "crashed" || e.end == "non_finite" || e.end == "missing";
 }
 
-RateEstimate PoolFalls(const CampaignResults& results, const std::string& arm,
-                       const std::vector<std::string>& point) {
-  long falls = 0;
-  double metres = 0.0;
-  for (const EpisodeRecord& e : results.episodes) {
-    if (!Belongs(e, arm, point) || !e.has_metrics || !e.metrics.outcome) continue;
-    falls += e.metrics.outcome->falls;
-    metres += e.metrics.distance_m;
-  }
-  return EstimateRate(falls, metres);
-}
-
-/// By seed: a seed is a terrain, shared by the arms.
-std::vector<PairedCounts> CountByTerrain(const CampaignResults& results, const std::string& a,
-                                         const std::string& b,
-                                         const std::vector<std::string>& point) {
-  std::map<std::uint64_t, PairedCounts> by_seed;
-  for (const EpisodeRecord& e : results.episodes) {
-    if (!e.has_metrics || !e.metrics.outcome) continue;
-    PairedCounts& pair = by_seed[e.seed];
-    if (Belongs(e, a, point)) {
-      pair.events_a += e.metrics.outcome->falls;
-      pair.exposure_a += e.metrics.distance_m;
-    } else if (Belongs(e, b, point)) {
-      pair.events_b += e.metrics.outcome->falls;
-      pair.exposure_b += e.metrics.distance_m;
-    }
-  }
-  std::vector<PairedCounts> terrains;
-  for (const auto& [seed, pair] : by_seed) {
-    if (pair.exposure_a > 0.0 && pair.exposure_b > 0.0) terrains.push_back(pair);
-  }
-  return terrains;
-}
-
 /// In the order of the seeds, which is that of a campaign.
 double TestAnyTime(const std::vector<PairedCounts>& terrains) {
   SequentialSignTest test;
@@ -85,6 +50,40 @@ void AdjustForMany(std::vector<Comparison>& all, bool whole_sweep) {
 bool Belongs(const EpisodeRecord& e, const std::string& arm,
              const std::vector<std::string>& point) {
   return e.arm == arm && (point.empty() || e.point == point);
+}
+
+RateEstimate PoolFalls(const CampaignResults& results, const std::string& arm,
+                       const std::vector<std::string>& point) {
+  long falls = 0;
+  double metres = 0.0;
+  for (const EpisodeRecord& e : results.episodes) {
+    if (!Belongs(e, arm, point) || !e.has_metrics || !e.metrics.outcome) continue;
+    falls += e.metrics.outcome->falls;
+    metres += e.metrics.distance_m;
+  }
+  return EstimateRate(falls, metres);
+}
+
+std::vector<PairedCounts> CountByTerrain(const CampaignResults& results, const std::string& a,
+                                         const std::string& b,
+                                         const std::vector<std::string>& point) {
+  std::map<std::uint64_t, PairedCounts> by_seed;
+  for (const EpisodeRecord& e : results.episodes) {
+    if (!e.has_metrics || !e.metrics.outcome) continue;
+    PairedCounts& pair = by_seed[e.seed];
+    if (Belongs(e, a, point)) {
+      pair.events_a += e.metrics.outcome->falls;
+      pair.exposure_a += e.metrics.distance_m;
+    } else if (Belongs(e, b, point)) {
+      pair.events_b += e.metrics.outcome->falls;
+      pair.exposure_b += e.metrics.distance_m;
+    }
+  }
+  std::vector<PairedCounts> terrains;
+  for (const auto& [seed, pair] : by_seed) {
+    if (pair.exposure_a > 0.0 && pair.exposure_b > 0.0) terrains.push_back(pair);
+  }
+  return terrains;
 }
 
 std::string PointName(const std::vector<Axis>& axes, const std::vector<std::string>& point) {

@@ -52,6 +52,15 @@ struct Comparison {
                                  const std::string& b, const std::vector<std::string>& point,
                                  const TestGoal& goal = {});
 
+/// Falls of an arm over its metres at a point (empty: over the whole sweep).
+[[nodiscard]] RateEstimate PoolFalls(const CampaignResults& results, const std::string& arm,
+                                     const std::vector<std::string>& point);
+
+/// Those of two arms by seed, which is a terrain that both walked, by rising seed.
+[[nodiscard]] std::vector<PairedCounts> CountByTerrain(const CampaignResults& results,
+                                                       const std::string& a, const std::string& b,
+                                                       const std::vector<std::string>& point);
+
 /// The lower of two rates by which falls are expected, per metre; the other where it is zero.
 [[nodiscard]] double LowerRate(const Comparison& c) noexcept;
 

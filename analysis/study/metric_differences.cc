@@ -61,9 +61,10 @@ void AdjustForMany(std::vector<MetricDifference>& metrics) {
 
 Judgement Judge(const MetricDifference& d) noexcept {
   if (d.metric.better == Better::kNeither) return Judgement::kNoDirection;
+  constexpr double kLevel = 0.05;
   const MeanEstimate& e = d.pairs.difference;
-  const bool less = e.interval.high<0.0, more = e.interval.low> 0.0;
-  if (e.count < 2 || (!less && !more)) return Judgement::kNoneShown;
+  if (e.count < 2 || d.holm > kLevel) return Judgement::kNoneShown;
+  const bool less = e.mean < 0.0;
   return less == (d.metric.better == Better::kLower) ? Judgement::kBetter : Judgement::kWorse;
 }
 

@@ -21,7 +21,8 @@ struct MetricDifference {
   double holm = 1.0, false_discovery = 1.0;
 };
 
-/// What a difference says: its interval lies on one side of zero, or not.
+/// What a difference says among the others of its comparison: Holm's p-value is at most 5 %, or
+/// not.
 enum class Judgement { kBetter, kWorse, kNoneShown, kNoDirection };
 [[nodiscard]] Judgement Judge(const MetricDifference& d) noexcept;
 

@@ -93,6 +93,7 @@ CampaignResults ReadIndex(const fs::path& file) {
                               axis.value("baseline", "")});  // not in older results
     }
     if (j.contains("design")) results.design = DesignFromJson(j.at("design"));
+    if (j.contains("stop")) results.stop = StopFromJson(j.at("stop"));
     for (const json& e : j.at("episodes")) {
       EpisodeRecord& episode = results.episodes.emplace_back();
       e.at("id").get_to(episode.id);
@@ -116,6 +117,11 @@ bool Axis::IsNumeric() const {
     const auto [stop, error] = std::from_chars(v.data(), v.data() + v.size(), number);
     return error == std::errc{} && stop == v.data() + v.size();
   });
+}
+
+EpisodeRecord LoadEpisode(const fs::path& folder, EpisodeRecord index) {
+  ReadResult(folder, index);
+  return index;
 }
 
 CampaignResults LoadResults(const fs::path& folder) {

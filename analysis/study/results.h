@@ -10,6 +10,7 @@
 #include "analysis/metrics/episode_metrics.h"
 #include "analysis/study/design.h"
 #include "analysis/study/field_log.h"
+#include "analysis/study/stopping.h"
 #include "terrains/generator.h"
 
 namespace scoria::analysis {
@@ -47,9 +48,15 @@ struct CampaignResults {
   std::vector<Axis> axes;
   std::optional<Design> design;  // in place of axes: points of episodes are of it
   std::vector<EpisodeRecord> episodes;
+  std::optional<StopRecord> stop;  // of a campaign that may stop by itself
   bool single_run = false;
   std::vector<FieldLog> logs;  // of robots, of which the episodes are parts; none of simulations
 };
+
+/// What an episode's folder holds; a result that is missing or cannot be read is one without
+/// metrics.
+/// @param index  id, arm, point and seed.
+[[nodiscard]] EpisodeRecord LoadEpisode(const std::filesystem::path& folder, EpisodeRecord index);
 
 /// Errors: std::runtime_error that names the file and what is missing.
 [[nodiscard]] CampaignResults LoadResults(const std::filesystem::path& folder);

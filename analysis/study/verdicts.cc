@@ -86,18 +86,13 @@ std::string NoEvidenceVerdict(std::span<const Comparison> comparisons, const std
 }
 
 std::string MetricVerdict(const ArmDifferences& d) {
-  constexpr double kLevel = 0.05;
   std::vector<std::string> better, worse;
   int none = 0;
   for (const MetricDifference& m : d.metrics) {
-    if (m.metric.better == Better::kNeither) continue;
-    if (m.holm > kLevel) {
-      ++none;
-      continue;
-    }
-    const bool lower = m.pairs.difference.mean < 0.0;
-    std::vector<std::string>& list = lower == (m.metric.better == Better::kLower) ? better : worse;
-    list.emplace_back(m.metric.title);
+    const Judgement judgement = Judge(m);
+    if (judgement == Judgement::kBetter) better.emplace_back(m.metric.title);
+    if (judgement == Judgement::kWorse) worse.emplace_back(m.metric.title);
+    if (judgement == Judgement::kNoneShown) ++none;
   }
   if (better.empty() && worse.empty() && none == 0) return "";
   std::string text = fmt::format("{} against {}: ", d.arm, d.baseline);

@@ -156,6 +156,18 @@ void AddJobs(const Campaign& campaign, const CampaignArm& arm, const SweepPoint&
   }
 }
 
+/// @param node  of the rule, for places in messages.
+analysis::StopRule ToStopRule(const StopFile& file, std::size_t arms, const ConfigNode& node) {
+  if (arms < 2) throw ConfigError(node.origin, "stop", "needs two arms to compare");
+  std::vector<std::string> names = {"falls"};
+  for (const analysis::Metric& m : analysis::AllMetrics()) names.emplace_back(m.info.key);
+  if (!std::ranges::count(names, file.when_decided))
+    throw ConfigError(node.Find("when_decided")->origin, "stop.when_decided",
+                      fmt::format("{}: is neither falls nor a metric{}", file.when_decided,
+                                  core::DidYouMean(file.when_decided, names)));
+  return {file.when_decided, file.alpha};
+}
+
 /// Errors: core::ConfigError if an expectation is of an arm that there is not, or is a ratio of
 /// something other than falls.
 void CheckExpected(const Campaign& campaign, const ConfigNode& node) {
@@ -220,6 +232,7 @@ Campaign LoadCampaign(const fs::path& file, const std::vector<std::string>& over
   campaign.first_seed = read.first_seed;
   campaign.seeds = read.seeds;
   campaign.expect = read.expect;
+  if (read.stop) campaign.stop = ToStopRule(*read.stop, read.arms.size(), *node.Find("stop"));
   campaign.design = design;
   campaign.design_origin = design_origin;
   for (const ArmFile& arm : read.arms) campaign.arms.push_back(ToArm(arm));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analysis/study/design.h"
+#include "analysis/study/stopping.h"
 #include "app/scenario/scenario.h"
 #include "core/config/archive.h"
 
@@ -41,6 +42,7 @@ struct Campaign {
   core::Origin design_origin;  // in the campaign's file
   std::uint64_t first_seed = 1;
   int seeds = 3;
+  std::optional<analysis::StopRule> stop;  // ends it before the seeds are spent
   ArmExpectations expect;
   core::ConfigNotes notes;  // about the scenarios' texts
 };
@@ -71,21 +73,28 @@ struct CampaignOptions {
 };
 
 struct CampaignOutcome {
-  int episodes = 0, done_before = 0, crashed = 0;
+  int episodes = 0;  // of the seeds up to the last that was needed
+  int done_before = 0, crashed = 0;
   int failed = 0;      // ended non_finite or hardly walked
   int unfinished = 0;  // to be walked by the same command again
   bool interrupted = false;
+  std::optional<analysis::StopRecord> stop;  // of a campaign that may stop by itself
   std::string disk_problem;  // why the campaign ended early, if the disk refused a file
 };
 
 /// Writes campaign.json: what the folder of a campaign holds. Errors: core::FileError.
+/// @param stop  of a campaign that may stop by itself; the index then ends with its last seed.
 void WriteIndex(const Campaign& campaign, const std::vector<CampaignJob>& jobs,
-                const std::filesystem::path& folder);
+                const std::filesystem::path& folder,
+                const std::optional<analysis::StopRecord>& stop = std::nullopt);
 
 /// Runs every episode in a worker process of its own: a crash is an outcome in the results, never
 /// the end of the batch. Episodes whose result stands in the folder, of the same version and
 /// scenario and of files with the same content, are kept, so a stopped campaign resumes. What was
 /// killed from outside, ran out of space or left an unreadable result is walked by the next one.
+/// With a stop rule, seeds are looked at in their order, each once all its episodes have ended: the
+/// last one does not depend on the workers. Episodes of later seeds that were walked meanwhile stay
+/// in the folder, but are not in its index.
 /// Errors: core::FolderInUse; core::FileError if the disk refuses the campaign's own folder.
 CampaignOutcome RunCampaign(const Campaign& campaign, const CampaignOptions& options);
 

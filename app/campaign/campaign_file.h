@@ -69,6 +69,19 @@ struct DesignFile {
   }
 };
 
+/// When a campaign may end before its seeds are spent.
+struct StopFile {
+  std::string when_decided = "falls";
+  double alpha = 0.05;
+  template <class Archive>
+  void Serialize(Archive& a) {
+    a.Field("when_decided", when_decided,
+            {.doc = "falls, or a metric by its key: what every arm's comparison with the first is "
+                    "of, over the whole sweep, by a sequential sign test over the seeds"});
+    a.Field("alpha", alpha, {.min = 1e-9, .max = 0.5, .doc = "level of each comparison"});
+  }
+};
+
 /// A campaign's YAML file.
 struct CampaignFile {
   std::string name;
@@ -77,6 +90,7 @@ struct CampaignFile {
   std::vector<AxisFile> sweep;  // none where there is a design
   std::uint64_t first_seed = 1;
   int seeds = 3;
+  std::optional<StopFile> stop;
   ArmExpectations expect;
   template <class Archive>
   void Serialize(Archive& a) {
@@ -86,6 +100,7 @@ struct CampaignFile {
     a.Field("sweep", sweep, {.doc = "every arm walks every combination; or a design"});
     a.Field("first_seed", first_seed, {.doc = "master seed of the first episode"});
     a.Field("seeds", seeds, {.min = 1, .max = 100000, .doc = "episodes per arm and combination"});
+    a.Field("stop", stop, {.doc = "ends the campaign before its seeds are spent"});
     a.Field("expect", expect,
             {.doc = "what scoria check holds the episodes of each arm together to, by the names of "
                     "a scenario's expect; that holds for every episode"});

@@ -10,6 +10,7 @@
 #include "app/campaign/campaign.h"
 #include "app/campaign/episode_folder.h"
 #include "app/campaign/run_jobs.h"
+#include "app/campaign/stop_when_decided.h"
 #include "app/cli/exit_codes.h"
 #include "app/cli/progress.h"
 #include "app/version.h"
@@ -28,7 +29,7 @@ class CampaignRunner {
   CampaignRunner(const Campaign& campaign, const std::vector<CampaignJob>& jobs,
                  const CampaignOptions& options)
       : jobs_(jobs), options_(options), bar_(campaign.name) {
-    outcome_.episodes = static_cast<int>(jobs.size());
+    if (campaign.stop) stop_.emplace(campaign, jobs, options.folder);
     FindWaiting();
   }
 
@@ -36,10 +37,14 @@ class CampaignRunner {
     JobsOptions options{options_.workers, options_.program, options_.interrupted, {}, {}};
     options.on_end = [this](const FolderJob& job, const JobExit& exit) { return Take(job, exit); };
     options.on_moment = [this] { ShowProgress(); };
+    options.is_needed = [this](const FolderJob& job) { return Needs(*job.job); };
     const JobsEnd end = RunJobs(waiting_, options);
     outcome_.interrupted = end.interrupted;
     outcome_.unfinished += end.not_started;
     outcome_.disk_problem = end.problem;
+    outcome_.episodes = static_cast<int>(
+        std::ranges::count_if(jobs_, [this](const CampaignJob& job) { return Needs(job); }));
+    if (stop_) outcome_.stop = stop_->record();
     return outcome_;
   }
 
@@ -48,11 +53,13 @@ class CampaignRunner {
   void FindWaiting() {
     InputHasher hasher;
     std::map<std::string, int> again;
+    std::vector<const CampaignJob*> done;
     for (const CampaignJob& job : jobs_) {
       const fs::path folder = options_.folder / "episodes" / job.id;
       const std::string reason = WhyAgain(folder, job, hasher);
       if (reason.empty()) {
-        ++outcome_.done_before;
+        done.push_back(&job);
+        if (stop_) stop_->Take(job);
         continue;
       }
       waiting_.push_back({&job, folder});
@@ -61,9 +68,13 @@ class CampaignRunner {
     if (options_.on_again) {
       for (const auto& [reason, episodes] : again) options_.on_again(reason, episodes);
     }
+    std::erase_if(waiting_, [this](const FolderJob& j) { return !Needs(*j.job); });
     std::ranges::stable_sort(waiting_, {}, [](const FolderJob& j) { return j.job->seed; });
-    done_ = outcome_.done_before;
+    done_ = outcome_.done_before = static_cast<int>(
+        std::ranges::count_if(done, [this](const CampaignJob* job) { return Needs(*job); }));
   }
+
+  [[nodiscard]] bool Needs(const CampaignJob& job) const { return !stop_ || stop_->Needs(job); }
 
   void ShowProgress() {
     bar_.Update(static_cast<double>(done_) / static_cast<double>(jobs_.size()),
@@ -94,12 +105,14 @@ class CampaignRunner {
         return "";
     }
     ++done_;
+    if (stop_) stop_->Take(*job.job);
     return "";
   }
 
   const std::vector<CampaignJob>& jobs_;
   const CampaignOptions& options_;
   std::vector<FolderJob> waiting_;
+  std::optional<StopWhenDecided> stop_;  // of a campaign that may stop by itself
   CampaignOutcome outcome_;
   ProgressBar bar_;
   int done_ = 0, falls_ = 0;
@@ -108,7 +121,7 @@ class CampaignRunner {
 }  // namespace
 
 void WriteIndex(const Campaign& campaign, const std::vector<CampaignJob>& jobs,
-                const fs::path& folder) {
+                const fs::path& folder, const std::optional<analysis::StopRecord>& stop) {
   json index = {{"name", campaign.name},
                 {"file", campaign.file.string()},
                 {"overrides", campaign.overrides},
@@ -125,7 +138,9 @@ void WriteIndex(const Campaign& campaign, const std::vector<CampaignJob>& jobs,
                               {"baseline", axis.baseline}});
   }
   if (campaign.design) index["design"] = analysis::ToJson(*campaign.design);
+  if (stop) index["stop"] = analysis::ToJson(*stop);
   for (const CampaignJob& job : jobs) {
+    if (stop && stop->last_seed && job.seed > *stop->last_seed) continue;
     index["episodes"].push_back(
         {{"id", job.id}, {"arm", job.arm}, {"point", job.point}, {"seed", job.seed}});
   }
@@ -137,7 +152,9 @@ CampaignOutcome RunCampaign(const Campaign& campaign, const CampaignOptions& opt
   const core::FolderLock lock(options.folder, std::chrono::seconds(1));
   core::CreateFolders(options.folder / "episodes");
   WriteIndex(campaign, jobs, options.folder);
-  return CampaignRunner(campaign, jobs, options).Run();
+  const CampaignOutcome outcome = CampaignRunner(campaign, jobs, options).Run();
+  if (outcome.stop) WriteIndex(campaign, jobs, options.folder, outcome.stop);
+  return outcome;
 }
 
 }  // namespace scoria::app

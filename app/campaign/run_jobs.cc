@@ -20,14 +20,14 @@ class JobLoop {
 
   JobsEnd Run() {
     while (true) {
-      while (MayStart()) Start();
+      while (MayStart()) StartNext();
       if (pool_->IsIdle()) break;
       if (stopped()) pool_->Stop();
       if (const auto ended = pool_->Wait()) Guarded([&] { Take(*ended); });
       if (options_.on_moment) options_.on_moment();
     }
     end_.interrupted = stopped();
-    end_.not_started = static_cast<int>(jobs_.size() - next_);
+    for (; next_ < jobs_.size(); ++next_) end_.not_started += IsNeeded(jobs_[next_]) ? 1 : 0;
     return end_;
   }
 
@@ -39,7 +39,15 @@ class JobLoop {
     return !stopped() && end_.problem.empty() && next_ < jobs_.size() && pool_->HasRoom();
   }
 
-  void Start() {
+  [[nodiscard]] bool IsNeeded(const FolderJob& job) const {
+    return !options_.is_needed || options_.is_needed(job);
+  }
+
+  void StartNext() {
+    if (!IsNeeded(jobs_[next_])) {
+      ++next_;
+      return;
+    }
     Guarded([&] {
       const FolderJob& job = jobs_[next_];
       PrepareFolder(job.folder, *job.job);

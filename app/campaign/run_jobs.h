@@ -25,12 +25,15 @@ struct JobsOptions {
   /// A job has ended. @returns why no further one shall start, in words; empty if they may.
   std::function<std::string(const FolderJob& job, const JobExit& exit)> on_end;
   std::function<void()> on_moment;  // many times a second
+  /// Is looked at when a job is to start: those that are no longer needed are left out. Empty: all
+  /// are.
+  std::function<bool(const FolderJob& job)> is_needed = {};
 };
 
 struct JobsEnd {
   bool interrupted = false;
   std::string problem;  // why it ended early, in words
-  int not_started = 0;
+  int not_started = 0;  // of those that are needed
 };
 
 /// Runs jobs in worker processes, started in their order. What the system refuses (disk, process, a

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "analysis/statistics/mean.h"
-#include "analysis/statistics/rate_ratio.h"
+#include "analysis/study/compare.h"
 
 namespace scoria::app {
 namespace {
@@ -22,17 +22,6 @@ Episodes EpisodesOf(const CampaignResults& results, const std::string& arm) {
     if (e.arm == arm) episodes.push_back(&e);
   }
   return episodes;
-}
-
-/// Falls over the metres of an arm.
-analysis::RateEstimate FallsOf(const CampaignResults& results, const std::string& arm) {
-  long falls = 0;
-  double walked_m = 0.0;
-  for (const EpisodeRecord* e : EpisodesOf(results, arm)) {
-    falls += e->metrics.outcome ? e->metrics.outcome->falls : 0;
-    walked_m += e->metrics.distance_m;
-  }
-  return analysis::EstimateRate(falls, walked_m);
 }
 
 /// The two-sided confidence whose interval ends where the one-sided bound lies.
@@ -80,8 +69,11 @@ Finding JudgeComparison(const std::string& name, const Observable& what, const A
   Finding finding;
   if (c.ratio_below || c.ratio_above) {
     finding.name = fmt::format("ratio of {}, {} : {},", name, c.of, c.to);
-    const analysis::RatioEstimate ratio = analysis::EstimateRateRatio(
-        FallsOf(results, c.of), FallsOf(results, c.to), TwoSided(c.confidence));
+    const analysis::RatioEstimate ratio =
+        analysis::CompareRates(
+            analysis::PoolFalls(results, c.of, {}), analysis::PoolFalls(results, c.to, {}),
+            analysis::CountByTerrain(results, c.of, c.to, {}), TwoSided(c.confidence))
+            .judged;
     finding.value = ratio.ratio;
     finding.problem =
         Breach(ratio.ratio, ratio.interval, c.confidence, c.ratio_below, c.ratio_above);

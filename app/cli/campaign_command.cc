@@ -22,6 +22,7 @@ void PrintOutcome(const std::string& name, const CampaignOutcome& outcome,
   fmt::print("{}: {} episodes ({} from before, {} crashed, {} did not walk){} in {}\n", name,
              outcome.episodes, outcome.done_before, outcome.crashed, outcome.failed,
              outcome.interrupted ? ", interrupted" : "", folder);
+  if (outcome.stop) fmt::print("{}\n", analysis::DescribeStop(*outcome.stop));
   if (outcome.unfinished > 0) {
     fmt::print("{} episodes are to be walked yet; {}the same command goes on with them\n",
                outcome.unfinished, outcome.disk_problem.empty() ? "" : "make room, and then ");

@@ -93,6 +93,11 @@ BulletList Verdicts(const ReportInput& input) {
 /// What the budget could see, metrics, and where the falls lie.
 std::vector<std::string> Facts(const ReportInput& input) {
   std::vector<std::string> facts;
+  if (const auto& stop = input.results.stop)
+    facts.push_back(DescribeStop(*stop) +
+                    (stop->last_seed ? " Other p-values and intervals are those of an end that was "
+                                       "planned, and do not hold for one that the data chose."
+                                     : ""));
   double detectable = std::numeric_limits<double>::infinity();
   for (const Comparison& c : Pooled(input)) detectable = std::min(detectable, c.detectable);
   if (detectable < std::numeric_limits<double>::infinity()) {

@@ -185,6 +185,63 @@ TEST(Campaign, OwnFaultsAreCrashesAndOutsideOnesAreWalkedAgain) {
   }
 }
 
+/// Two arms, of which the heavy one stands lower on every seed, and when that ends the campaign.
+fs::path WriteStoppingCampaign(const fs::path& folder, const std::string& stop) {
+  const fs::path file = folder / "c.yaml";
+  core::WriteText(file, fmt::format("name: small\nseeds: 12\nscenario:\n  base: {}\n"
+                                    "  start: standing\n  duration_s: 5\n"
+                                    "  terrain: {{size_m: 6.4, resolution_m: 0.1}}\n"
+                                    "  log: {{keep: metrics}}\narms:\n  - {{name: ags}}\n"
+                                    "  - {{name: heavy, set: {{controller: {{model: "
+                                    "{{mass_offset_kg: 4}}}}}}}}\nstop: {}\n",
+                                    test::SourcePath("scenarios/flat.yaml").string(), stop));
+  return file;
+}
+
+TEST(Campaign, StopsByItselfOnceDecidedForAnyNumberOfWorkers) {
+  const test::TemporaryFolder folder;
+  const fs::path file =
+      WriteStoppingCampaign(folder.path(), "{when_decided: height_rmse_m, alpha: 0.2}");
+  const fs::path out = folder.path() / "out", other = folder.path() / "other";
+  const test::ProgramEnd end = test::RunScoria(Command(file, out));
+  EXPECT_EQ(end.code, 0) << end.output;
+  EXPECT_NE(end.output.find("Stopped by itself after seed "), std::string::npos) << end.output;
+  const auto index = nlohmann::json::parse(core::ReadText(out / "campaign.json"));
+  const auto last_seed = index.at("stop").at("last_seed").get<int>();
+  EXPECT_LT(last_seed, 12);
+  EXPECT_EQ(index.at("episodes").size(), 2 * last_seed);
+  const std::string html = core::ReadText(analysis::WriteReport(out));
+  EXPECT_NE(html.find("Stopped by itself after seed "), std::string::npos);
+
+  const CampaignOutcome again = Walk(file, out);
+  EXPECT_EQ(again.episodes, 2 * last_seed);
+  EXPECT_EQ(again.done_before, 2 * last_seed) << "nothing is left to walk";
+  EXPECT_EQ(core::ReadText(out / "campaign.json"), index.dump(2) + "\n");
+
+  CampaignOptions one;
+  one.program = SCORIA_PROGRAM;
+  one.folder = other;
+  one.workers = 1;
+  EXPECT_EQ(RunCampaign(LoadCampaign(file, {}), one).episodes, 2 * last_seed);
+}
+
+TEST(Campaign, AStopRuleNeedsTwoArmsAndSomethingThatThereIs) {
+  const test::TemporaryFolder folder;
+  const auto message = [&](const std::string& rule) -> std::string {
+    try {
+      (void)LoadCampaign(WriteStoppingCampaign(folder.path(), rule), {});
+    } catch (const core::ConfigError& e) {
+      return e.what();
+    }
+    return "";
+  };
+  EXPECT_NE(message("{when_decided: fals}")
+                .find("stop.when_decided: fals: is neither falls nor a metric (did you mean "
+                      "\"falls\"?)"),
+            std::string::npos);
+  EXPECT_NE(message("{alpha: 0.7}").find("stop.alpha: 0.7 is outside"), std::string::npos);
+}
+
 TEST(Campaign, CrashStandsUntilItsInputsChange) {
   const test::TemporaryFolder folder;
   const fs::path file = WriteCampaign(folder.path(), 1), out = folder.path() / "out";

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Scenarios and campaigns as tests, by the command as users have it.
+#include <sstream>
+
 #include <boost/property_tree/ptree.hpp>
 #include <boost/property_tree/xml_parser.hpp>
 #include <fmt/format.h>
@@ -9,6 +11,7 @@
 #include "app/check/find_tests.h"
 #include "app/check/judge.h"
 #include "app/cli/exit_codes.h"
+#include "app/gate/run_program.h"
 #include "core/files.h"
 #include "tests/support/program.h"
 #include "tests/support/robots.h"
@@ -87,6 +90,49 @@ TEST(Check, FailsBrokenBoundsAndWhatDoesNotApply) {
     if (tag == "testcase") failures += static_cast<int>(child.count("failure"));
   }
   EXPECT_EQ(failures, 2);
+}
+
+/// What the reader of JUnit files of Debian's python3-junitparser counts: cases, failures, errors,
+/// and the problems of those that failed. The first line is "absent" where it is not installed.
+std::vector<std::string> ReadByJunitparser(const fs::path& junit) {
+  const fs::path script = junit.parent_path() / "read.py";
+  core::WriteText(script,
+                  "import sys\n"
+                  "try:\n"
+                  "    from junitparser import JUnitXml, Failure, Error\n"
+                  "except ImportError:\n"
+                  "    print('absent'); sys.exit()\n"
+                  "xml = JUnitXml.fromfile(sys.argv[1])\n"
+                  "cases = [case for suite in xml for case in suite]\n"
+                  "results = [r for case in cases for r in case.result]\n"
+                  "of = lambda kind: [r for r in results if isinstance(r, kind)]\n"
+                  "print(len(cases), len(of(Failure)), len(of(Error)))\n"
+                  "print(xml.tests, xml.failures, xml.errors)\n"
+                  "for case in cases: print(case.classname + '/' + case.name)\n"
+                  "for r in of(Failure): print(r.message)\n");
+  const fs::path out = junit.parent_path() / "read.txt";
+  const int code = RunProgram({"/usr/bin/python3", script.string(), junit.string()}, out);
+  if (code == 127) return {"absent"};
+  EXPECT_EQ(code, 0) << core::ReadText(out);
+  std::istringstream in(core::ReadText(out));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(Check, ItsJunitIsAcceptedByAnIndependentParser) {
+  const test::TemporaryFolder temporary;
+  const fs::path folder = temporary.path() / "tests", junit = temporary.path() / "j.xml";
+  AddScenario(folder, "below/broken", "{duration_s: {min: 2}, falls: 0}");
+  AddScenario(folder, "sound", "{falls: 0}");
+  (void)Check(folder, {"--no-artifacts", "--junit", junit.string()});
+  const std::vector<std::string> read = ReadByJunitparser(junit);
+  ASSERT_FALSE(read.empty());
+  if (read[0] == "absent") GTEST_SKIP() << "python3-junitparser is not installed";
+  ASSERT_EQ(read.size(), 5u);
+  EXPECT_EQ(read[0], "2 1 0");
+  EXPECT_EQ(read[1], "2 1 0") << "by the attributes of the file";
+  EXPECT_EQ(read[4], "duration_s is 0.998, must be at least 2");
 }
 
 TEST(Check, ShowsAFailureByLogClipAndFigure) {
