@@ -7,8 +7,12 @@
 #include <set>
 #include <utility>
 
+#include "analysis/statistics/paired_counts.h"
+
 namespace scoria::analysis {
 namespace {
+
+constexpr std::string_view kFalls = "falls";
 
 /// Of the metrics that are looked at: falls are there once, and times of the clock are not.
 bool IsJudged(const MetricInfo& info) {
@@ -16,63 +20,68 @@ bool IsJudged(const MetricInfo& info) {
          info.key != "falls_per_m";
 }
 
-/// An episode's arm and point.
-using Place = std::pair<std::string, std::vector<std::string>>;
-using ValuesByPlace = std::map<Place, MetricValues>;
+using Place = RegressionEvidence::Place;
+using EpisodesByPlace = std::map<Place, const EpisodeRecord*>;
 
-ValuesByPlace ValuesOfSeed(const CampaignResults& results, const Metrics& metrics,
-                           std::uint64_t seed) {
-  ValuesByPlace values;
+EpisodesByPlace EpisodesOfSeed(const CampaignResults& results, std::uint64_t seed) {
+  EpisodesByPlace episodes;
   for (const EpisodeRecord& e : results.episodes) {
-    if (e.seed == seed && e.has_metrics) values[{e.arm, e.point}] = ValuesOf(metrics, e.metrics);
+    if (e.seed == seed && e.has_metrics) episodes[{e.arm, e.point}] = &e;
   }
-  return values;
+  return episodes;
 }
 
-/// Mean of a metric over the places; nothing where none has it.
-std::optional<double> MeanOver(const ValuesByPlace& values, std::string_view key) {
-  double sum = 0.0;
-  int count = 0;
-  for (const auto& [place, of_place] : values) {
-    if (const auto value = Find(of_place, key)) {
-      sum += *value;
-      ++count;
-    }
-  }
-  return count > 0 ? std::optional(sum / count) : std::nullopt;
+/// Falls of `now` beyond its share of those of both; nothing where none of them has metres.
+std::optional<double> ExcessOfFalls(const EpisodeRecord& before, const EpisodeRecord& now) {
+  if (!before.metrics.outcome || !now.metrics.outcome) return std::nullopt;
+  const PairedCounts falls{now.metrics.outcome->falls, before.metrics.outcome->falls,
+                           now.metrics.distance_m, before.metrics.distance_m};
+  if (falls.exposure_a <= 0.0 && falls.exposure_b <= 0.0) return std::nullopt;
+  return ExcessOfA(falls);
 }
 
-/// Means of a pair over the places where both have the metric: baseline, now.
-std::optional<std::pair<double, double>> PairOver(const ValuesByPlace& baseline,
-                                                  const ValuesByPlace& now, std::string_view key) {
-  double before = 0.0, after = 0.0;
-  int count = 0;
-  for (const auto& [place, values] : baseline) {
-    const auto other = now.find(place);
-    if (other == now.end()) continue;
-    const auto a = Find(values, key), b = Find(other->second, key);
-    if (!a || !b) continue;
-    before += *a;
-    after += *b;
-    ++count;
-  }
-  if (count == 0) return std::nullopt;
-  return std::pair(before / count, after / count);
-}
+constexpr std::size_t kFewest = 10;  // seeds that tell a scale
 
-/// The test of a metric, by its values on the seeds of the baseline.
-std::variant<SequentialSignTest, SequentialTTest> ChooseTest(const std::vector<double>& values) {
-  constexpr std::size_t kFewest = 10;
+/// Whether values are averages over an episode, which hardly repeat.
+bool AreContinuous(const std::vector<double>& values) {
   constexpr double kDistinctShare = 0.9;
   const std::set<double> distinct(values.begin(), values.end());
-  const auto n = static_cast<double>(values.size());
-  if (values.size() < kFewest || static_cast<double>(distinct.size()) < kDistinctShare * n)
-    return SequentialSignTest(Alternative::kGreater);
+  return values.size() >= kFewest && static_cast<double>(distinct.size()) >=
+                                         kDistinctShare * static_cast<double>(values.size());
+}
+
+SequentialTTest::Pilot SpreadOf(const std::vector<double>& values) {
   double mean = 0.0, squares = 0.0;
-  for (const double v : values) mean += v / n;
+  for (const double v : values) mean += v / static_cast<double>(values.size());
   for (const double v : values) squares += (v - mean) * (v - mean);
-  return SequentialTTest(Alternative::kGreater,
-                         {.squares = squares, .count = static_cast<int>(values.size()) - 1});
+  return {squares, static_cast<int>(values.size()) - 1};
+}
+
+/// Of differences between twin and baseline, which have twice the variance of a walk; nothing where
+/// they do not tell a scale: of thirty normal ones, the largest is beyond four times their root
+/// mean square once in 500 times.
+std::optional<SequentialTTest::Pilot> SpreadOfTwins(const std::vector<double>& differences) {
+  constexpr double kOutlier = 4.0;
+  if (!AreContinuous(differences)) return std::nullopt;
+  double squares = 0.0, largest = 0.0;
+  for (const double d : differences) {
+    squares += d * d;
+    largest = std::max(largest, d * d);
+  }
+  const auto n = static_cast<double>(differences.size());
+  if (largest > kOutlier * kOutlier * squares / n) return std::nullopt;
+  return SequentialTTest::Pilot{0.5 * squares, static_cast<int>(differences.size())};
+}
+
+/// Values of a metric at a place by seed.
+std::map<std::uint64_t, double> ValuesAt(const CampaignResults& results, const Place& place,
+                                         const Metric& metric) {
+  std::map<std::uint64_t, double> values;
+  for (const EpisodeRecord& e : results.episodes) {
+    if (!e.has_metrics || e.arm != place.arm || e.point != place.point) continue;
+    if (const auto value = ValueOf(metric, e.metrics)) values[e.seed] = *value;
+  }
+  return values;
 }
 
 }  // namespace
@@ -81,40 +90,71 @@ double RegressionEvidence::Test::log_e() const {
   return std::visit([](const auto& t) { return t.evidence().log_e(); }, test);
 }
 
-RegressionEvidence::RegressionEvidence(const CampaignResults& baseline) : metrics_(AllMetrics()) {
-  std::erase_if(metrics_, [](const Metric& m) { return !IsJudged(m.info); });
-  std::set<std::uint64_t> seeds;
-  for (const EpisodeRecord& e : baseline.episodes) seeds.insert(e.seed);
-  std::map<std::string_view, std::vector<double>> values;
-  for (const std::uint64_t seed : seeds) {
-    const ValuesByPlace of_seed = ValuesOfSeed(baseline, metrics_, seed);
-    for (const Metric& m : metrics_) {
-      if (const auto value = MeanOver(of_seed, m.info.key)) values[m.info.key].push_back(*value);
-    }
+void RegressionEvidence::Test::Add(double before, double now, double worse) {
+  std::visit([&](auto& t) { t.Add(worse); }, test);
+  ++pairs;
+  baseline_sum += before;
+  sum += now;
+}
+
+RegressionEvidence::Test RegressionEvidence::MakeTest(const Metric& metric, const Place& place,
+                                                      const CampaignResults& baseline) const {
+  std::vector<double> values, differences;
+  const auto twins = ValuesAt(twin_, place, metric);
+  for (const auto& [seed, value] : ValuesAt(baseline, place, metric)) {
+    values.push_back(value);
+    if (const auto twin = twins.find(seed); twin != twins.end())
+      differences.push_back(twin->second - value);
   }
-  for (const Metric& m : metrics_) {
-    if (const auto found = values.find(m.info.key); found != values.end())
-      tests_.push_back({m.info, ChooseTest(found->second)});
+  if (metric.info.key == kFalls || !AreContinuous(values))
+    return {metric, place, SequentialSignTest(Alternative::kGreater)};
+  if (const auto pilot = SpreadOfTwins(differences))
+    return {metric, place, SequentialTTest(Alternative::kGreater, *pilot), true};
+  return {metric, place, SequentialTTest(Alternative::kGreater, SpreadOf(values))};
+}
+
+RegressionEvidence::RegressionEvidence(const CampaignResults& baseline, CampaignResults twin)
+    : twin_(std::move(twin)) {
+  Metrics metrics = AllMetrics();
+  std::erase_if(metrics, [](const Metric& m) { return !IsJudged(m.info); });
+  std::set<Place> places;
+  for (const EpisodeRecord& e : baseline.episodes) {
+    if (e.has_metrics) places.insert({e.arm, e.point});
+  }
+  for (const Place& place : places) {
+    for (const Metric& m : metrics) {
+      if (!ValuesAt(baseline, place, m).empty()) tests_.push_back(MakeTest(m, place, baseline));
+    }
   }
 }
 
 void RegressionEvidence::AddSeed(std::uint64_t seed, const CampaignResults& baseline,
                                  const CampaignResults& now) {
-  const ValuesByPlace before = ValuesOfSeed(baseline, metrics_, seed),
-                      after = ValuesOfSeed(now, metrics_, seed);
+  const EpisodesByPlace before = EpisodesOfSeed(baseline, seed), twin = EpisodesOfSeed(twin_, seed),
+                        after = EpisodesOfSeed(now, seed);
   std::vector<double> all;
   for (Test& t : tests_) {
-    if (const auto pair = PairOver(before, after, t.metric.key)) {
-      const double worse = t.metric.better == Better::kLower ? 1.0 : -1.0;
-      const double d = worse * (pair->second - pair->first) / std::numbers::sqrt2;
-      std::visit([&](auto& test) { test.Add(d); }, t.test);
-      ++t.pairs;
-      t.baseline_sum += pair->first;
-      t.sum += pair->second;
-    }
+    const auto a = before.find(t.place), b = after.find(t.place), again = twin.find(t.place);
+    if (a != before.end() && b != after.end())
+      AddPair(*a->second, again == twin.end() ? nullptr : again->second, *b->second, t);
     all.push_back(t.log_e());
   }
   if (!all.empty()) evidence_.Update(LogMeanExp(all));
+}
+
+void RegressionEvidence::AddPair(const EpisodeRecord& before, const EpisodeRecord* twin,
+                                 const EpisodeRecord& now, Test& t) {
+  const auto a = ValueOf(t.metric, before.metrics), b = ValueOf(t.metric, now.metrics);
+  if (!a || !b) return;
+  if (t.metric.info.key == kFalls) {
+    if (const auto excess = ExcessOfFalls(before, now)) t.Add(*a, *b, *excess);
+    return;
+  }
+  const auto again = t.by_twin && twin != nullptr ? ValueOf(t.metric, twin->metrics) : std::nullopt;
+  // Of the variance of a walk: a mean of two has half of it.
+  const double d =
+      again ? (*b - 0.5 * (*a + *again)) / std::sqrt(1.5) : (*b - *a) / std::numbers::sqrt2;
+  t.Add(*a, *b, t.metric.info.better == Better::kLower ? d : -d);
 }
 
 std::vector<RegressionEvidence::Line> RegressionEvidence::Lines() const {
@@ -122,7 +162,7 @@ std::vector<RegressionEvidence::Line> RegressionEvidence::Lines() const {
   for (const Test& t : tests_) {
     if (t.pairs == 0) continue;
     const auto n = static_cast<double>(t.pairs);
-    lines.push_back({t.metric, t.pairs, t.baseline_sum / n, t.sum / n, t.log_e()});
+    lines.push_back({t.metric.info, t.place, t.pairs, t.baseline_sum / n, t.sum / n, t.log_e()});
   }
   std::ranges::stable_sort(lines, std::ranges::greater{}, &Line::log_e);
   return lines;

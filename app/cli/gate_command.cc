@@ -15,7 +15,7 @@ namespace scoria::app {
 namespace {
 
 struct Options {
-  std::string file, baseline, baseline_program, out, json;
+  std::string file, baseline, baseline_program, twin, walked, out, json;
   std::vector<std::string> set;
   double alpha = 0.01;
   int seeds = 0, workers = 2;
@@ -25,6 +25,8 @@ std::string ToJsonText(const GateResult& result, const Baseline& baseline) {
   nlohmann::json metrics = nlohmann::json::array();
   for (const auto& line : result.lines) {
     metrics.push_back({{"key", line.metric.key},
+                       {"arm", line.place.arm},
+                       {"point", line.place.point},
                        {"pairs", line.pairs},
                        {"baseline_mean", line.baseline_mean},
                        {"mean", line.mean},
@@ -60,6 +62,8 @@ int RunCommand(const Options& o) {
   GateOptions options;
   options.file = o.file;
   options.overrides = o.set;
+  options.twin = o.twin;
+  options.walked = o.walked;
   options.alpha = o.alpha;
   options.seeds = o.seeds;
   options.workers = o.workers;
@@ -92,6 +96,16 @@ void AddGate(CLI::App& app, int& exit_code) {
       ->check(CLI::ExistingDirectory);
   gate->add_option("--baseline-program", o->baseline_program,
                    "the scoria that walked the baseline, for further seeds");
+  gate->add_option(
+          "--twin", o->twin,
+          "campaign folder of the baseline's seeds and build, by other bits of no consequence: "
+          "tells how much walks differ where nothing changed")
+      ->check(CLI::ExistingDirectory);
+  gate->add_option(
+          "--walked", o->walked,
+          "campaign folder that this build has walked already, as on a cluster: it is judged, and "
+          "nothing is walked")
+      ->check(CLI::ExistingDirectory);
   gate->add_option("--set", o->set, "override a key of the campaign");
   gate->add_option("--alpha", o->alpha, "probability of an alarm where nothing became worse")
       ->check(CLI::Range(1e-9, 0.5));

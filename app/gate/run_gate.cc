@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "analysis/metrics/metric_text.h"
+#include "analysis/study/compare.h"
 #include "app/campaign/episode_folder.h"
 #include "app/campaign/run_jobs.h"
 #include "app/check/judge.h"
@@ -26,12 +28,15 @@ using Line = analysis::RegressionEvidence::Line;
 
 double Log10(double log_e) { return log_e / std::numbers::ln10; }
 
-/// "height RMSE 3.1 -> 9.4 mm"
-std::string ChangeText(const Line& line) {
+/// "height RMSE 3.1 -> 9.4 mm", with arm and point of the sweep where there are several.
+std::string ChangeText(const Line& line, const CampaignResults& baseline) {
   const analysis::MetricInfo& m = line.metric;
-  return fmt::format("{} {} -> {}{}{}", m.title, analysis::ShownNumber(m, line.baseline_mean),
+  std::string where = baseline.arms.size() > 1 ? line.place.arm : "";
+  if (!baseline.axes.empty())
+    where += (where.empty() ? "" : ", ") + analysis::PointName(baseline.axes, line.place.point);
+  return fmt::format("{} {} -> {}{}{}{}", m.title, analysis::ShownNumber(m, line.baseline_mean),
                      analysis::ShownNumber(m, line.mean), ShownUnit(m).empty() ? "" : " ",
-                     ShownUnit(m));
+                     ShownUnit(m), where.empty() ? "" : fmt::format(" ({})", where));
 }
 
 const EpisodeRecord* FindEpisode(const CampaignResults& results, const std::string& id) {
@@ -45,34 +50,35 @@ class Gate {
       : baseline_(baseline.results),
         seeds_(baseline.seeds),
         options_(options),
-        evidence_(baseline.results),
+        evidence_(baseline.results, LoadTwin()),
         file_(options.file.empty() ? baseline.file : options.file),
-        overrides_(baseline.overrides),
-        same_cpu_(!baseline.cpu.empty() && baseline.cpu == CpuName()) {
-    std::vector<std::string> overrides = overrides_;
-    overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
-    campaign_ = LoadCampaign(file_, overrides);
-    campaign_.first_seed = seeds_.front();
-    budget_ = options.seeds > 0 ? options.seeds : static_cast<int>(seeds_.size());
-    campaign_.seeds = static_cast<int>(seeds_.back() - seeds_.front()) + 1 + budget_;
-    jobs_ = Plan(campaign_);
-    CheckDesign();
+        overrides_(baseline.overrides) {
+    std::string cpu = CpuName();
+    if (options.walked.empty()) {
+      PlanWalks();
+    } else {
+      cpu = TakeWalked();
+    }
+    same_cpu_ = !baseline.cpu.empty() && baseline.cpu == cpu;
     if (!same_cpu_)
       Tell(
           fmt::format("the baseline was walked on another processor ({}; this is {}): bits are "
                       "not compared",
-                      baseline.cpu.empty() ? "not recorded" : baseline.cpu, CpuName()));
+                      baseline.cpu.empty() ? "not recorded" : baseline.cpu, cpu));
   }
 
   GateResult Run() {
-    core::CreateFolders(options_.folder / "episodes");
-    WriteIndex(campaign_, jobs_, options_.folder);
+    if (!walked_) {
+      core::CreateFolders(options_.folder / "episodes");
+      WriteIndex(campaign_, jobs_, options_.folder);
+    }
     for (std::size_t next = 0; static_cast<int>(next) < budget_;) {
       const std::vector<std::uint64_t> batch = NextSeeds(next);
       if (batch.empty()) break;
       next += batch.size();
-      if (!Walk(batch)) return End(GateVerdict::kInterrupted);
-      const CampaignResults now = analysis::LoadResults(options_.folder);
+      if (!walked_ && !Walk(batch)) return End(GateVerdict::kInterrupted);
+      const CampaignResults now = walked_ ? *walked_ : analysis::LoadResults(options_.folder);
+      if (walked_) result_.episodes += static_cast<int>(batch.size() * EpisodesPerSeed());
       if (const std::string broken = FindBroken(batch, now); !broken.empty()) {
         result_.sentence = broken;
         return End(GateVerdict::kBroken);
@@ -91,23 +97,68 @@ class Gate {
     if (options_.on_line) options_.on_line(line);
   }
 
-  void CheckDesign() const {
-    std::vector<std::string> arms;
-    for (const CampaignArm& arm : campaign_.arms) arms.push_back(arm.name);
-    const bool same_axes = std::ranges::equal(
-        campaign_.sweep, baseline_.axes,
-        [](const CampaignAxis& a, const analysis::Axis& b) { return a.names == b.values; });
-    if (arms != baseline_.arms || !same_axes)
-      throw std::runtime_error(
-          fmt::format("{}: has other arms or another sweep than the baseline", file_.string()));
+  [[nodiscard]] CampaignResults LoadTwin() const {
+    if (options_.twin.empty()) return {};
+    CampaignResults twin = LoadBaseline(options_.twin).results;
+    CheckDesign(options_.twin, twin);
+    return twin;
   }
 
-  /// As many seeds as keep all workers busy; further ones of the baseline are walked first.
+  void PlanWalks() {
+    std::vector<std::string> overrides = overrides_;
+    overrides.insert(overrides.end(), options_.overrides.begin(), options_.overrides.end());
+    campaign_ = LoadCampaign(file_, overrides);
+    campaign_.first_seed = seeds_.front();
+    budget_ = options_.seeds > 0 ? options_.seeds : static_cast<int>(seeds_.size());
+    campaign_.seeds = static_cast<int>(seeds_.back() - seeds_.front()) + 1 + budget_;
+    jobs_ = Plan(campaign_);
+    std::vector<std::string> arms;
+    std::vector<std::vector<std::string>> axes;
+    for (const CampaignArm& arm : campaign_.arms) arms.push_back(arm.name);
+    for (const CampaignAxis& axis : campaign_.sweep) axes.push_back(axis.names);
+    CheckDesign(file_, arms, axes);
+  }
+
+  /// Takes the seeds that both have. @returns the processor that walked them.
+  std::string TakeWalked() {
+    Baseline walked = LoadBaseline(options_.walked);
+    CheckDesign(options_.walked, walked.results);
+    std::erase_if(seeds_, [&](std::uint64_t s) { return !std::ranges::count(walked.seeds, s); });
+    const int most = static_cast<int>(seeds_.size());
+    budget_ = options_.seeds > 0 ? std::min(options_.seeds, most) : most;
+    walked_ = std::move(walked.results);
+    return walked.cpu;
+  }
+
+  void CheckDesign(const fs::path& of, const CampaignResults& results) const {
+    std::vector<std::vector<std::string>> axes;
+    for (const analysis::Axis& axis : results.axes) axes.push_back(axis.values);
+    CheckDesign(of, results.arms, axes);
+  }
+
+  /// @param axes  values of each axis of the sweep.
+  void CheckDesign(const fs::path& of, const std::vector<std::string>& arms,
+                   const std::vector<std::vector<std::string>>& axes) const {
+    const bool same_axes =
+        std::ranges::equal(axes, baseline_.axes, {}, {}, &analysis::Axis::values);
+    if (arms != baseline_.arms || !same_axes)
+      throw std::runtime_error(
+          fmt::format("{}: has other arms or another sweep than the baseline", of.string()));
+  }
+
+  /// Of the baseline's first seed, which is whole.
+  [[nodiscard]] std::size_t EpisodesPerSeed() const {
+    return static_cast<std::size_t>(
+        std::ranges::count(baseline_.episodes, seeds_.front(), &EpisodeRecord::seed));
+  }
+
+  /// As many seeds as keep all workers busy, one of those that have been walked; further ones of
+  /// the baseline are walked first.
   std::vector<std::uint64_t> NextSeeds(std::size_t next) {
-    const std::size_t per_seed = std::max<std::size_t>(1, jobs_.size() / campaign_.seeds);
+    const std::size_t per_seed = EpisodesPerSeed(),
+                      busy = (static_cast<std::size_t>(options_.workers) + per_seed - 1) / per_seed;
     const std::size_t wanted =
-        std::min((static_cast<std::size_t>(options_.workers) + per_seed - 1) / per_seed,
-                 static_cast<std::size_t>(budget_) - next);
+        std::min(walked_ ? 1 : busy, static_cast<std::size_t>(budget_) - next);
     if (next + wanted > seeds_.size() && !options_.baseline_program.empty()) WalkBaseline(wanted);
     std::vector<std::uint64_t> batch;
     for (std::size_t i = next; i < std::min(next + wanted, seeds_.size()); ++i)
@@ -186,7 +237,7 @@ class Gate {
       Tell(fmt::format("seed {:4}  {:4} episodes  evidence 10^{:.1f} of 10^{:.1f}  {}", seed,
                        result_.episodes, Log10(evidence_.evidence().log_e()),
                        -std::log10(options_.alpha),
-                       lines.empty() ? "" : ChangeText(lines.front())));
+                       lines.empty() ? "" : ChangeText(lines.front(), baseline_)));
       if (evidence_.evidence().Rejects(options_.alpha)) return true;
     }
     return false;
@@ -213,7 +264,8 @@ class Gate {
     std::string changes;
     for (std::size_t i = 0; i < std::min(kMost, result_.lines.size()); ++i) {
       if (result_.lines[i].log_e > 0.0)
-        changes += fmt::format("{}{}", changes.empty() ? "" : ", ", ChangeText(result_.lines[i]));
+        changes += fmt::format("{}{}", changes.empty() ? "" : ", ",
+                               ChangeText(result_.lines[i], baseline_));
     }
     return fmt::format(
         "worse than the baseline after {} seeds (p = {:.2g}, level {:g}, {} "
@@ -227,7 +279,8 @@ class Gate {
   analysis::RegressionEvidence evidence_;
   fs::path file_;
   std::vector<std::string> overrides_;
-  bool same_cpu_;
+  bool same_cpu_ = false;
+  std::optional<CampaignResults> walked_;  // by this build; nothing: the gate walks
   Campaign campaign_;
   int budget_ = 0;
   std::vector<CampaignJob> jobs_;
@@ -237,7 +290,8 @@ class Gate {
 }  // namespace
 
 GateResult RunGate(const Baseline& baseline, const GateOptions& options) {
-  const core::FolderLock lock(options.folder);
+  std::optional<core::FolderLock> lock;
+  if (options.walked.empty()) lock.emplace(options.folder);
   return Gate(baseline, options).Run();
 }
 

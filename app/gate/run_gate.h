@@ -27,6 +27,10 @@ struct GateOptions {
   std::filesystem::path folder;        // for the episodes, a campaign's
   std::filesystem::path file;          // campaign YAML; empty: that of the baseline
   std::vector<std::string> overrides;  // of campaign keys, after those of the baseline
+  /// Campaign that this build has walked already, elsewhere or before; empty: the gate walks.
+  std::filesystem::path walked;
+  /// Campaign of the baseline's build once more, by other bits of no consequence; empty: none.
+  std::filesystem::path twin;
   double alpha = 0.01;
   int seeds = 0;    // budget; 0: those of the baseline
   int workers = 2;  // processes at a time

@@ -108,6 +108,29 @@ TEST_F(Gate, AnEpisodeThatNoLongerWalksIsBroken) {
   EXPECT_EQ(gate.verdict["verdict"], "broken");
 }
 
+// As of a campaign that a cluster walked.
+TEST_F(Gate, JudgesWhatHasBeenWalkedElsewhere) {
+  const fs::path walked = Folder() / "walked";
+  const auto walk = [&](const std::string& set) {
+    const test::ProgramEnd end =
+        test::RunScoria({"campaign", (Folder() / "c.yaml").string(), "--set", "seeds=6", "--set",
+                         set, "--out", walked.string()},
+                        {.folder = {}, .largest_file = 0, .patience_s = 300});
+    ASSERT_EQ(end.code, kOk) << end.output;
+  };
+  walk("scenario.controller.model.mass_offset_kg=4");
+  const Ended worse = Run({"--walked", walked.string()});
+  EXPECT_EQ(worse.end.code, kFailed) << worse.end.output;
+  EXPECT_EQ(worse.verdict["verdict"], "worse");
+  EXPECT_EQ(worse.verdict["seeds"], worse.verdict["episodes"]);
+  walk("scenario.controller.wbc={type: tsid, formulation: full}");
+  const Ended same = Run({"--walked", walked.string()});
+  EXPECT_EQ(same.end.code, kOk) << same.end.output;
+  EXPECT_EQ(same.verdict["seeds"], 6) << "those that both have";
+  walk("scenario.name=other");
+  EXPECT_EQ(Run({"--walked", walked.string()}).verdict["verdict"], "equal");
+}
+
 TEST_F(Gate, TheProgramOfTheBaselineWalksFurtherSeeds) {
   const Ended gate =
       Run({"--set", "scenario.controller.wbc={type: tsid, formulation: full}", "--seeds",
