@@ -46,7 +46,8 @@ std::string ProblemOf(const std::string& name, const ArmComparison& compare,
   return findings.front().problem;
 }
 
-// Of 21 falls, one is of a: the exact upper bound of its share at 95 % is 0.2067, a ratio of 0.2606.
+// Of 21 falls, one is of a: the exact upper bound of its share at 95 % is 0.2067, a ratio of
+// 0.2606.
 TEST(JudgeArms, ARatioHasToBeShown) {
   const CampaignResults results = MadeUp({2, 2, 2, 2, 2, 2, 2, 2, 2, 2});
   ArmComparison c{"a", "b", 0.261, {}, {}, {}, 0.95};
