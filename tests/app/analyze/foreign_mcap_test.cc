@@ -34,11 +34,10 @@ constexpr double kTorque_Nm = -1.5, kJointSpeed_radps = 0.25, kTime_s = kLast / 
 class ForeignMcap : public testing::Test {
  protected:
   static void SetUpTestSuite() {
+    const std::filesystem::path source = SCORIA_SOURCE_DIR;
     AnalyzeOptions options;
-    options.robot = "go2";
-    analysis_ = AnalyzeLog(
-        {std::filesystem::path(SCORIA_SOURCE_DIR) / "tests/data/bags/foxglove_walk.mcap"}, "walk",
-        "", options);
+    options.robot = source / "robots/go2/go2.yaml";
+    analysis_ = AnalyzeLog({source / "tests/data/bags/foxglove_walk.mcap"}, "walk", "", options);
   }
   static double Number(std::string_view key) {
     const analysis::Metrics all = analysis::AllMetrics();
