@@ -2,7 +2,7 @@
 
 set(SCORIA_MARCH "x86-64-v3" CACHE STRING "Value of -march; empty for the compiler's default")
 option(SCORIA_WERROR "Warnings are errors" OFF)
-option(SCORIA_PCH "Precompile the headers that most sources include" OFF)
+option(SCORIA_UNITY "Compile the sources of a folder together, which takes a third of the time; OFF shows a missing include" ON)
 set(SCORIA_SANITIZE "" CACHE STRING "Value of -fsanitize, such as address,undefined; with fuzzer-no-link the fuzz targets are programs")
 
 if(NOT CMAKE_BUILD_TYPE)
@@ -20,8 +20,8 @@ target_compile_options(scoria_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wold-style-cast
   # g++ 12 reports these falsely, inside the standard library, fmt and Eigen, when it inlines at -O3.
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow>
-  # And these of what comes from precompiled headers.
-  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${SCORIA_PCH}>>:-Wno-stringop-overread>
+  # And this of a class whose members are a source's own types, when a source is included by that of its folder.
+  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${SCORIA_UNITY}>>:-Wno-subobject-linkage>
   $<$<BOOL:${SCORIA_WERROR}>:-Werror>
   $<$<BOOL:${SCORIA_MARCH}>:-march=${SCORIA_MARCH}>)
 if(SCORIA_SANITIZE)
@@ -30,32 +30,36 @@ if(SCORIA_SANITIZE)
   target_link_options(scoria_options INTERFACE -fsanitize=${SCORIA_SANITIZE})
 endif()
 
-# scoria_precompiled(NAME HEADERS <a> ... LINK targets): headers parsed once for all that use them (SCORIA_PCH). Off where
-# a compiler cache does more, so that a source which lacks an include does not go unseen.
-set(scoria_pch_source ${CMAKE_CURRENT_LIST_DIR}/precompiled.cc)
-function(scoria_precompiled name)
-  if(NOT SCORIA_PCH)
+# scoria_by_folder(TARGET): the sources of one folder become one unit of compilation (SCORIA_UNITY), so a name that is
+# local to a source differs from those of its neighbours.
+function(scoria_by_folder target)
+  if(NOT SCORIA_UNITY)
     return()
   endif()
-  cmake_parse_arguments(ARG "" "" "HEADERS;LINK" ${ARGN})
-  add_library(${name} OBJECT ${scoria_pch_source})
-  target_link_libraries(${name} PRIVATE ${ARG_LINK} scoria_options)
-  target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
-endfunction()
-function(scoria_use_precompiled target name)
-  if(SCORIA_PCH)
-    target_precompile_headers(${target} REUSE_FROM ${name})
-  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    if(IS_ABSOLUTE ${source})  # generated
+      continue()
+    endif()
+    cmake_path(GET source PARENT_PATH folder)
+    string(MAKE_C_IDENTIFIER "${folder}_" group)
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
+  endforeach()
 endfunction()
 
-# scoria_library(NAME SOURCES a.cc ... PUBLIC targets PRIVATE targets): static library scoria::NAME.
+# scoria_library(NAME [WALKS] SOURCES a.cc ... PUBLIC targets PRIVATE targets): static library scoria::NAME. For the
+# release, sources of one that WALKS are compiled alone: a compiler fuses products and sums of functions that it inlines,
+# and so the bits of a walk depend on what it sees.
 function(scoria_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "WALKS" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(scoria_${name} STATIC ${ARG_SOURCES})
   add_library(scoria::${name} ALIAS scoria_${name})
   target_include_directories(scoria_${name} PUBLIC ${PROJECT_SOURCE_DIR})
   target_link_libraries(scoria_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} scoria_options)
-  scoria_use_precompiled(scoria_${name} scoria_pch)
+  if(NOT ARG_WALKS OR NOT CMAKE_BUILD_TYPE STREQUAL "Release")
+    scoria_by_folder(scoria_${name})
+  endif()
 endfunction()
 
 # scoria_link_graph(TARGET VARIABLE): every link that TARGET needs, its own and those of what it links, as "from to" lines.

@@ -10,7 +10,7 @@ namespace scoria::terrains {
 namespace {
 
 using core::Rng;
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 }  // namespace
 
@@ -24,16 +24,16 @@ void AddGullies(Grid& heights, const GullyParams& p, double downhill_rad, Rng rn
     const double half_m = 0.5 * rng.NextUniform(p.min_width_m, p.max_width_m);
     // It winds and fades: waves of some metres, of random phase.
     const double bend_m = rng.NextUniform(0.3, 1.0), wave_m = rng.NextUniform(8.0, 20.0);
-    const double bend_phase = rng.NextUniform(0.0, 2.0 * kPi);
-    const double fade_m = rng.NextUniform(10.0, 30.0), fade_phase = rng.NextUniform(0.0, 2.0 * kPi);
+    const double bend_phase = rng.NextUniform(0.0, 2.0 * pi);
+    const double fade_m = rng.NextUniform(10.0, 30.0), fade_phase = rng.NextUniform(0.0, 2.0 * pi);
     for (int row = 0; row < heights.nodes; ++row) {
       for (int column = 0; column < heights.nodes; ++column) {
         const Vec2 p_W = heights.Position(column, row);
         const double along = p_W.dot(down), beside = p_W.dot(across) - at_m;
         if (std::abs(beside) >= half_m + bend_m) continue;
-        const double off = beside - bend_m * std::sin(2.0 * kPi * along / wave_m + bend_phase);
+        const double off = beside - bend_m * std::sin(2.0 * pi * along / wave_m + bend_phase);
         if (std::abs(off) >= half_m) continue;
-        const double strength = 0.5 + 0.5 * std::sin(2.0 * kPi * along / fade_m + fade_phase);
+        const double strength = 0.5 + 0.5 * std::sin(2.0 * pi * along / fade_m + fade_phase);
         heights.at(column, row) -= strength * depth_m * (1.0 - off * off / (half_m * half_m));
       }
     }
@@ -93,8 +93,8 @@ void AddRipples(Grid& heights, const RippleParams& p, const Grid& presence) {
       const double share = presence.at(column, row);
       if (share == 0.0) continue;
       const Vec2 p_W = heights.Position(column, row);
-      const double sway = 0.7 * std::sin(2.0 * kPi * p_W.dot(across) / (12.0 * p.wavelength_m));
-      const double phase = 2.0 * kPi * p_W.dot(wind) / p.wavelength_m + sway;
+      const double sway = 0.7 * std::sin(2.0 * pi * p_W.dot(across) / (12.0 * p.wavelength_m));
+      const double phase = 2.0 * pi * p_W.dot(wind) / p.wavelength_m + sway;
       heights.at(column, row) += share * p.amplitude_m * std::sin(phase + kSkew * std::sin(phase));
     }
   }

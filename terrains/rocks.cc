@@ -9,7 +9,7 @@ namespace scoria::terrains {
 namespace {
 
 using core::Rng;
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Draws diameters by the inverse of RockDensity, from a table.
 class DiameterLaw {
@@ -67,7 +67,8 @@ class RockIndex {
     return std::clamp(static_cast<int>((coordinate_m + 0.5 * edge_m_) / cell_m_), 0, cells_ - 1);
   }
   [[nodiscard]] std::size_t Index(int column, int row) const {
-    return static_cast<std::size_t>(row * cells_ + column);
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(cells_) +
+           static_cast<std::size_t>(column);
   }
   double edge_m_, cell_m_;
   int cells_;
@@ -90,7 +91,7 @@ double RockDensity(const RockParams& rocks, double above_diameter_m) {
   if (high <= low) return 0.0;
   const auto density = [&](double log_d) {
     const double d = std::exp(log_d);
-    return 4.0 * k * q * std::exp(-q * d) / (kPi * d);  // n(D) dD = n(D) D dlogD
+    return 4.0 * k * q * std::exp(-q * d) / (pi * d);  // n(D) dD = n(D) D dlogD
   };
   const double h = (high - low) / kPanels;
   double sum = density(low) + density(high);
@@ -112,7 +113,7 @@ std::vector<Rock> DrawRocks(const RockParams& params, double edge_m, Rng rng) {
     rock.diameter_m = law.Draw(rng);
     rock.height_m = params.height_ratio * rock.diameter_m;
     rock.aspect = rng.NextUniform(kMinAspect, 1.0);
-    rock.yaw_rad = rng.NextUniform(0.0, kPi);
+    rock.yaw_rad = rng.NextUniform(0.0, pi);
     rock.burial = rng.NextUniform(kMinBurial, kMaxBurial);
     for (int attempt = 0; attempt < kTries; ++attempt) {
       rock.p_W = {rng.NextUniform(-0.5, 0.5) * edge_m, rng.NextUniform(-0.5, 0.5) * edge_m};

@@ -15,7 +15,7 @@ namespace {
 
 using core::Rng;
 using Complex = std::complex<double>;
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// In-place unscaled inverse transform of an n x n field, rows then columns.
 void InverseFft2(std::vector<Complex>& field, int n) {
@@ -46,7 +46,7 @@ struct Spectral {
 template <class Power>
 Spectral DrawSpectral(int n, double spacing_m, Rng& rng, Power power) {
   const auto size = static_cast<std::size_t>(n);
-  const double dk = 2.0 * kPi / (n * spacing_m);
+  const double dk = 2.0 * pi / (n * spacing_m);
   Spectral out;
   out.modes.resize(size * size);
   for (int row = 0; row < n; ++row) {
@@ -58,7 +58,7 @@ Spectral DrawSpectral(int n, double spacing_m, Rng& rng, Power power) {
       if (p == 0.0) continue;
       out.variance += 2.0 * p;
       out.modes[static_cast<std::size_t>(row) * size + static_cast<std::size_t>(column)] =
-          std::polar(2.0 * std::sqrt(p), rng.NextUniform(0.0, 2.0 * kPi));
+          std::polar(2.0 * std::sqrt(p), rng.NextUniform(0.0, 2.0 * pi));
     }
   }
   InverseFft2(out.modes, n);
@@ -67,7 +67,7 @@ Spectral DrawSpectral(int n, double spacing_m, Rng& rng, Power power) {
 
 /// Power of one isotropic mode with wavenumber k: k^-(2H+2), continuous at the break.
 double SelfAffinePower(double k, const RoughnessParams& p) {
-  const double ratio = k * p.break_wavelength_m / (2.0 * kPi);
+  const double ratio = k * p.break_wavelength_m / (2.0 * pi);
   return std::pow(ratio, -2.0 * ((ratio < 1.0 ? p.hurst : p.fine_hurst) + 1.0));
 }
 
@@ -79,8 +79,8 @@ class FittedSpectrum {
  public:
   FittedSpectrum(const RoughnessParams& params, const Grid& other)
       : params_(params),
-        k_low_(2.0 * kPi / params.max_wavelength_m),
-        k_high_(2.0 * kPi / params.min_wavelength_m) {
+        k_low_(2.0 * pi / params.max_wavelength_m),
+        k_high_(2.0 * pi / params.min_wavelength_m) {
     factors_.fill(1.0);
     const std::array<double, kBands> power = BandPower(other);
     Eigen::Matrix<double, kLags, kBands> response;  // of the structure function at a lag to a band
@@ -128,7 +128,7 @@ class FittedSpectrum {
   /// Sum of the unfitted power of all modes that the grid has in each band.
   [[nodiscard]] std::array<double, kBands> BandPower(const Grid& grid) const {
     std::array<double, kBands> power{};
-    const double dk = 2.0 * kPi / grid.edge_m();
+    const double dk = 2.0 * pi / grid.edge_m();
     for (int row = 0; row < grid.nodes; ++row) {
       const double ky = dk * (row <= grid.nodes / 2 ? row : row - grid.nodes);
       for (int column = 0; column < grid.nodes; ++column) {
@@ -155,8 +155,8 @@ double TargetDeviation(const RoughnessParams& params, double lag_m) {
   constexpr double kLongest_m = 1000.0;
   const auto structure = [&](double lag) {
     constexpr int kPanels = 2000;
-    const double low = std::log(2.0 * kPi / kLongest_m);
-    const double high = std::log(2.0 * kPi / params.min_wavelength_m);
+    const double low = std::log(2.0 * pi / kLongest_m);
+    const double high = std::log(2.0 * pi / params.min_wavelength_m);
     double sum = 0.0;
     for (int i = 0; i < kPanels; ++i) {
       const double k = std::exp(low + (i + 0.5) * (high - low) / kPanels);
@@ -180,7 +180,7 @@ void AddRoughness(Grid& heights, const RoughnessParams& params, const Grid& othe
 void AddRopes(Grid& heights, const RopeParams& p, Rng rng) {
   if (p.amplitude_m == 0.0) return;
   const double c = std::cos(p.azimuth_rad), s = std::sin(p.azimuth_rad);
-  const double k_low = 2.0 * kPi / p.max_wavelength_m, k_high = 2.0 * kPi / p.min_wavelength_m;
+  const double k_low = 2.0 * pi / p.max_wavelength_m, k_high = 2.0 * pi / p.min_wavelength_m;
   const Spectral field =
       DrawSpectral(heights.nodes, heights.spacing_m, rng, [&](double kx, double ky) {
         const double k = std::hypot(c * kx + s * ky, p.anisotropy * (-s * kx + c * ky));
@@ -200,7 +200,7 @@ Grid DrawPatchField(int nodes, double spacing_m, Rng rng) {
   RoughnessParams band;
   band.hurst = band.fine_hurst = kHurst;
   const Spectral field = DrawSpectral(n, coarsening * spacing_m, rng, [&](double kx, double ky) {
-    const double wave_m = 2.0 * kPi / std::hypot(kx, ky);
+    const double wave_m = 2.0 * pi / std::hypot(kx, ky);
     return wave_m < kMin_m || wave_m > kMax_m ? 0.0 : SelfAffinePower(std::hypot(kx, ky), band);
   });
   const auto value = [&](int column, int row) {

@@ -5,26 +5,24 @@
 #include <utility>
 
 #include "core/math/so3.h"
+#include "logs/vectors.h"
 
 namespace scoria::analysis {
 namespace {
 
-Vec3 ToVec3(const logs::Array3& a) { return {a[0], a[1], a[2]}; }
-logs::Array3 ToArray(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-
 logs::Array3 Mixed(const logs::Array3& a, const logs::Array3& b, double s) {
-  return ToArray((1.0 - s) * ToVec3(a) + s * ToVec3(b));
+  return logs::ToArray((1.0 - s) * logs::ToVec3(a) + s * logs::ToVec3(b));
 }
 
 logs::TruthRow Mixed(const logs::TruthRow& a, const logs::TruthRow& b, double s) {
   const BodyPose pose =
-      Interpolate({core::RotationFromRpy(ToVec3(a.rpy_rad)), ToVec3(a.p_WB_m)},
-                  {core::RotationFromRpy(ToVec3(b.rpy_rad)), ToVec3(b.p_WB_m)}, s);
+      Interpolate({core::RotationFromRpy(logs::ToVec3(a.rpy_rad)), logs::ToVec3(a.p_WB_m)},
+                  {core::RotationFromRpy(logs::ToVec3(b.rpy_rad)), logs::ToVec3(b.p_WB_m)}, s);
   logs::TruthRow out;
-  out.p_WB_m = ToArray(pose.p_WB);
+  out.p_WB_m = logs::ToArray(pose.p_WB);
   out.v_WB_mps = Mixed(a.v_WB_mps, b.v_WB_mps, s);
   out.w_WB_radps = Mixed(a.w_WB_radps, b.w_WB_radps, s);
-  out.rpy_rad = ToArray(core::RpyFromRotation(pose.R_WB));
+  out.rpy_rad = logs::ToArray(core::RpyFromRotation(pose.R_WB));
   if (a.ground_z_m && b.ground_z_m) out.ground_z_m = (1.0 - s) * *a.ground_z_m + s * *b.ground_z_m;
   return out;
 }
@@ -81,13 +79,13 @@ std::optional<logs::TruthRow> AlignedRows::TruthAt(double time_s) const {
 
 logs::TruthRow AlignedRows::OfTrunk(const logs::TruthRow& markers) const {
   const Mat3 R_WB =
-      core::RotationFromRpy(ToVec3(markers.rpy_rad)) * alignment_.offset.R_BM.transpose();
+      core::RotationFromRpy(logs::ToVec3(markers.rpy_rad)) * alignment_.offset.R_BM.transpose();
   const Vec3 p_BM_W = alignment_.lever_arm ? Vec3(R_WB * alignment_.lever_arm->p_BM) : Vec3::Zero();
-  const Vec3 w = ToVec3(markers.w_WB_radps);
+  const Vec3 w = logs::ToVec3(markers.w_WB_radps);
   logs::TruthRow out = markers;
-  out.p_WB_m = ToArray(ToVec3(markers.p_WB_m) - p_BM_W);
-  out.v_WB_mps = ToArray(ToVec3(markers.v_WB_mps) - w.cross(p_BM_W));
-  out.rpy_rad = ToArray(core::RpyFromRotation(R_WB));
+  out.p_WB_m = logs::ToArray(logs::ToVec3(markers.p_WB_m) - p_BM_W);
+  out.v_WB_mps = logs::ToArray(logs::ToVec3(markers.v_WB_mps) - w.cross(p_BM_W));
+  out.rpy_rad = logs::ToArray(core::RpyFromRotation(R_WB));
   return out;
 }
 

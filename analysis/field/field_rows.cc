@@ -7,12 +7,10 @@
 
 #include "analysis/field/leg_odometry.h"
 #include "core/math/so3.h"
+#include "logs/vectors.h"
 
 namespace scoria::analysis {
 namespace {
-
-Vec3 ToVec3(const logs::Array3& v) { return {v[0], v[1], v[2]}; }
-logs::Array3 ToArray(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 double NominalHeight(const core::RobotDescription* robot) {
   return robot != nullptr ? robot->config.nominal_height_m : 0.0;
@@ -46,7 +44,7 @@ bool FieldRows::IsNewPlace(const logs::Row& row) const {
   if (dt_s > setup_.gap_s || dt_s < 0.0) return true;
   constexpr double kJump_m = 0.05, kJump_mps = 5.0, kJump_rad = 0.3, kJump_radps = 40.0;
   if (last_.p_WB && row.estimate) {
-    const Vec3 step = ToVec3(row.estimate->p_WB_m) - *last_.p_WB;
+    const Vec3 step = logs::ToVec3(row.estimate->p_WB_m) - *last_.p_WB;
     if ((step - dt_s * *last_.v_WB).norm() > kJump_m + kJump_mps * dt_s) return true;
   }
   if (!last_.q_rad || !row.measured || !row.measured->q_rad) return false;
@@ -88,8 +86,8 @@ void FieldRows::Complete(logs::Row row, const logs::Row* after) {
   }
   last_ = {row.time_s, std::nullopt, std::nullopt, std::nullopt};
   if (row.estimate) {
-    last_.p_WB = ToVec3(row.estimate->p_WB_m);
-    last_.v_WB = ToVec3(row.estimate->v_WB_mps);
+    last_.p_WB = logs::ToVec3(row.estimate->p_WB_m);
+    last_.v_WB = logs::ToVec3(row.estimate->v_WB_mps);
   }
   if (row.measured) last_.q_rad = row.measured->q_rad;
   before_.reset();
@@ -118,7 +116,7 @@ std::optional<FallVerdict> FieldRows::LabelNear(double time_s) const {
 
 void FieldRows::Count(const logs::Row& row, std::string cause) {
   FallEvent event{row.time_s, std::move(cause), std::nullopt};
-  if (row.estimate) event.p_WB = ToVec3(row.estimate->p_WB_m).head<2>();
+  if (row.estimate) event.p_WB = logs::ToVec3(row.estimate->p_WB_m).head<2>();
   falls_.push_back(std::move(event));
   fallen_ = true;
 }
@@ -181,17 +179,17 @@ void FieldRows::FillMotion(logs::Row& row, const std::optional<logs::Array12>& q
     if (!R_WB) return;
     if (v_WB) v_legs_W_ = *v_WB;  // in flight it moves on as it was
     p_legs_W_ += dt_s * v_legs_W_;
-    truth.p_WB_m = ToArray(p_legs_W_);
-    truth.v_WB_mps = ToArray(v_legs_W_);
-    truth.rpy_rad = ToArray(core::RpyFromRotation(*R_WB));
+    truth.p_WB_m = logs::ToArray(p_legs_W_);
+    truth.v_WB_mps = logs::ToArray(v_legs_W_);
+    truth.rpy_rad = logs::ToArray(core::RpyFromRotation(*R_WB));
   } else {
     return;
   }
-  const Mat3 R_WB = core::RotationFromRpy(ToVec3(truth.rpy_rad));
+  const Mat3 R_WB = core::RotationFromRpy(logs::ToVec3(truth.rpy_rad));
   if (const std::optional<Vec3> w_WB_B = RateOf(row, setup_.robot)) {
-    truth.w_WB_radps = ToArray(R_WB * *w_WB_B);
+    truth.w_WB_radps = logs::ToArray(R_WB * *w_WB_B);
   } else if (last_R_WB_ && dt_s > 0.0) {
-    truth.w_WB_radps = ToArray(core::LogSo3(R_WB * last_R_WB_->transpose()) / dt_s);
+    truth.w_WB_radps = logs::ToArray(core::LogSo3(R_WB * last_R_WB_->transpose()) / dt_s);
   }
   last_R_WB_ = R_WB;
   row.truth = truth;
@@ -216,10 +214,10 @@ void FieldRows::FillTrueContacts(logs::Row& row) const {
   }
   if (setup_.robot == nullptr || !row.truth || !row.measured || !row.measured->q_rad) return;
   const LegArray<Vec3> q = Unflatten(*row.measured->q_rad);
-  const Mat3 R_WB = core::RotationFromRpy(ToVec3(row.truth->rpy_rad));
+  const Mat3 R_WB = core::RotationFromRpy(logs::ToVec3(row.truth->rpy_rad));
   LegArray<Vec3> p_WF = ZeroPerLeg();
   for (const Leg leg : kLegs) {
-    p_WF[leg] = ToVec3(row.truth->p_WB_m) +
+    p_WF[leg] = logs::ToVec3(row.truth->p_WB_m) +
                 R_WB * core::CalcLegKinematics(setup_.robot->legs[leg], q[leg]).p_BF;
   }
   row.true_contacts->p_WF_m = Flatten(p_WF);
@@ -230,11 +228,11 @@ void FieldRows::FillMass(logs::Row& row) {
   row.true_mass.emplace().mass_kg = *setup_.mass_kg;
   if (!model_ || !row.truth || !row.measured || !row.measured->q_rad) return;
   RobotState state;
-  state.p_WB = ToVec3(row.truth->p_WB_m);
-  state.R_WB = core::RotationFromRpy(ToVec3(row.truth->rpy_rad));
+  state.p_WB = logs::ToVec3(row.truth->p_WB_m);
+  state.R_WB = core::RotationFromRpy(logs::ToVec3(row.truth->rpy_rad));
   state.q = Unflatten(*row.measured->q_rad);
   model_->Calc(state, body_);
-  row.true_mass->p_BC_m = ToArray(state.R_WB.transpose() * (body_.p_WC - state.p_WB));
+  row.true_mass->p_BC_m = logs::ToArray(state.R_WB.transpose() * (body_.p_WC - state.p_WB));
   row.true_mass->p_WC_z_m = body_.p_WC.z();
 }
 

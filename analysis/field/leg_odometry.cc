@@ -5,11 +5,10 @@
 
 #include "core/math/so3.h"
 #include "core/robot/whole_body.h"
+#include "logs/vectors.h"
 
 namespace scoria::analysis {
 namespace {
-
-Vec3 ToVec3(const logs::Array3& v) { return {v[0], v[1], v[2]}; }
 
 /// Angular velocity of a shank in B: HAA turns about x, HFE and KFE about the y that HAA has
 /// turned.
@@ -21,21 +20,21 @@ Vec3 ShankRate(const Vec3& q, const Vec3& qd, const Vec3& w_WB_B) {
 }  // namespace
 
 std::optional<Mat3> AttitudeOf(const logs::Row& row, const core::RobotDescription* robot) {
-  if (row.truth) return core::RotationFromRpy(ToVec3(row.truth->rpy_rad));
-  if (row.estimate) return core::RotationFromRpy(ToVec3(row.estimate->rpy_rad));
+  if (row.truth) return core::RotationFromRpy(logs::ToVec3(row.truth->rpy_rad));
+  if (row.estimate) return core::RotationFromRpy(logs::ToVec3(row.estimate->rpy_rad));
   if (!row.measured || !row.measured->rpy_WS_rad) return std::nullopt;
-  const Mat3 R_WS = core::RotationFromRpy(ToVec3(*row.measured->rpy_WS_rad));
+  const Mat3 R_WS = core::RotationFromRpy(logs::ToVec3(*row.measured->rpy_WS_rad));
   return robot != nullptr ? Mat3(R_WS * robot->R_BS.transpose()) : R_WS;
 }
 
 std::optional<Vec3> RateOf(const logs::Row& row, const core::RobotDescription* robot) {
   if (row.measured && row.measured->w_WS_S_radps) {
-    const Vec3 w_WS_S = ToVec3(*row.measured->w_WS_S_radps);
+    const Vec3 w_WS_S = logs::ToVec3(*row.measured->w_WS_S_radps);
     return robot != nullptr ? Vec3(robot->R_BS * w_WS_S) : w_WS_S;
   }
   if (!row.truth) return std::nullopt;
-  return Vec3(core::RotationFromRpy(ToVec3(row.truth->rpy_rad)).transpose() *
-              ToVec3(row.truth->w_WB_radps));
+  return Vec3(core::RotationFromRpy(logs::ToVec3(row.truth->rpy_rad)).transpose() *
+              logs::ToVec3(row.truth->w_WB_radps));
 }
 
 std::optional<Vec3> CalcLegVelocity(const core::RobotDescription& robot, const logs::Row& row,

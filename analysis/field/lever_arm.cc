@@ -11,7 +11,6 @@
 namespace scoria::analysis {
 namespace {
 
-constexpr double kStep_s = MotionSamples::kStep_s;
 constexpr std::size_t kImuHalf = 10, kEstimateHalf = 30;  // samples: h
 constexpr std::size_t kEvery = 4, kBlock = 200;           // samples
 
@@ -24,8 +23,9 @@ T SecondDifference(std::size_t i, std::size_t h, const Get& get) {
 /// No trunk moves so fast from sample to sample: markers are mixed up there.
 bool IsJump(const BodyPose& a, const BodyPose& b) {
   constexpr double kLargestSpeed_mps = 10.0, kLargestRate_radps = 20.0;
-  return (b.p_WB - a.p_WB).norm() > kLargestSpeed_mps * kStep_s ||
-         core::LogSo3(a.R_WB.transpose() * b.R_WB).norm() > kLargestRate_radps * kStep_s;
+  return (b.p_WB - a.p_WB).norm() > kLargestSpeed_mps * MotionSamples::kStep_s ||
+         core::LogSo3(a.R_WB.transpose() * b.R_WB).norm() >
+             kLargestRate_radps * MotionSamples::kStep_s;
 }
 
 /// The truth at the time of each sample, its axes turned to those of the trunk; p_WB is p_WM.
@@ -75,10 +75,12 @@ std::vector<Integrated> Integrate(const std::vector<MotionSample>& samples, cons
         const Vec3 a = 0.5 * (last.a_W + now.a_W);
         const Mat3 R = 0.5 * (last.R + now.R);
         now.run = last.run + 1;
-        now.p_W = last.p_W + kStep_s * last.v_W + 0.5 * kStep_s * kStep_s * a;
-        now.v_W = last.v_W + kStep_s * a;
-        now.P = last.P + kStep_s * last.V + 0.5 * kStep_s * kStep_s * R;
-        now.V = last.V + kStep_s * R;
+        now.p_W = last.p_W + MotionSamples::kStep_s * last.v_W +
+                  0.5 * MotionSamples::kStep_s * MotionSamples::kStep_s * a;
+        now.v_W = last.v_W + MotionSamples::kStep_s * a;
+        now.P = last.P + MotionSamples::kStep_s * last.V +
+                0.5 * MotionSamples::kStep_s * MotionSamples::kStep_s * R;
+        now.V = last.V + MotionSamples::kStep_s * R;
       }
     }
     goes_on = is_there;
@@ -132,7 +134,7 @@ std::optional<RobustFit<4>> FitByEstimate(const std::vector<MotionSample>& sampl
   };
   const auto place = [&](std::size_t k) { return samples[k].estimate->p_WB; };
   const auto velocity = [&](std::size_t k) {
-    return Vec3((place(k + 1) - place(k - 1)) / (2.0 * kStep_s));
+    return Vec3((place(k + 1) - place(k - 1)) / (2.0 * MotionSamples::kStep_s));
   };
   std::vector<FitSample<4>> fit;
   for (std::size_t i = h + 1; i + h + 1 < samples.size(); i += kEvery) {

@@ -14,12 +14,12 @@
 namespace scoria::analysis {
 namespace {
 
-constexpr double kStep_s = MotionSamples::kStep_s;
 constexpr int kHalf = 4;                     // samples: rates are means over twice that
 constexpr double kLargestRate_radps = 20.0;  // of a trunk; beyond, markers are mixed up
 constexpr int kCoarse = 4;                   // samples between delays that are tried first
-constexpr int kNumLags = static_cast<int>(kLargestDelay_s / kStep_s / kCoarse + 0.5);  // each way
-constexpr std::size_t kBlock = 200;        // samples, 1 s
+constexpr int kNumLags =
+    static_cast<int>(kLargestDelay_s / MotionSamples::kStep_s / kCoarse + 0.5);  // each way
+constexpr std::size_t kTimeBlock = 200;                                          // samples, 1 s
 constexpr std::size_t kLeastPairs = 150;   // 3 s at every fourth sample
 constexpr double kLeastRate_radps = 0.02;  // gyroscopes' noise is less
 constexpr double kMostLeft = 0.5;
@@ -48,8 +48,8 @@ Rates TruthRates(const std::vector<MotionSample>& samples) {
   for (std::size_t i = kHalf; i + kHalf < samples.size(); ++i) {
     const auto &before = samples[i - kHalf].truth, &after = samples[i + kHalf].truth;
     if (!before || !after || !samples[i].truth) continue;
-    const Vec3 rate =
-        core::LogSo3(before->R_WB.transpose() * after->R_WB) / (2.0 * kHalf * kStep_s);
+    const Vec3 rate = core::LogSo3(before->R_WB.transpose() * after->R_WB) /
+                      (2.0 * kHalf * MotionSamples::kStep_s);
     if (rate.norm() < kLargestRate_radps) rates[i] = rate;
   }
   return rates;
@@ -98,14 +98,14 @@ double SurenessOf(const Rates& gyro, const Rates& truth, const Lag& best, const 
     double best = 0.0, rival = 0.0;
     std::size_t best_pairs = 0, rival_pairs = 0;
   };
-  std::vector<Sum> blocks(gyro.size() / kBlock + 1);
+  std::vector<Sum> blocks(gyro.size() / kTimeBlock + 1);
   ForEachPair(gyro, truth, best.lag, [&](std::size_t i, const Vec3& w_B, const Vec3& w_M) {
-    Sum& block = blocks[i / kBlock];
+    Sum& block = blocks[i / kTimeBlock];
     block.best += (w_B - best.R_BM * w_M).squaredNorm();
     ++block.best_pairs;
   });
   ForEachPair(gyro, truth, rival.lag, [&](std::size_t i, const Vec3& w_B, const Vec3& w_M) {
-    Sum& block = blocks[i / kBlock];
+    Sum& block = blocks[i / kTimeBlock];
     block.rival += (w_B - rival.R_BM * w_M).squaredNorm();
     ++block.rival_pairs;
   });
@@ -126,7 +126,8 @@ std::optional<Lag> RivalOf(const std::vector<Lag>& lags, const Lag& best) {
   for (std::size_t k = 1; k + 1 < lags.size(); ++k) {
     const Lag& lag = lags[k];
     const bool is_minimum = lag.left <= lags[k - 1].left && lag.left <= lags[k + 1].left;
-    if (!is_minimum || lag.pairs < kLeastPairs || std::abs(lag.lag - best.lag) * kStep_s < kApart_s)
+    if (!is_minimum || lag.pairs < kLeastPairs ||
+        std::abs(lag.lag - best.lag) * MotionSamples::kStep_s < kApart_s)
       continue;
     if (!rival || lag.left < rival->left) rival = lag;
   }
@@ -154,22 +155,22 @@ std::optional<Vec3> At(const Rates& rates, double at) {
 std::optional<TimeOffset> Refine(const Rates& gyro, const Rates& truth, const Lag& start) {
   constexpr int kIterations = 6;
   TimeOffset offset;
-  offset.delay_s = start.lag * kStep_s;
+  offset.delay_s = start.lag * MotionSamples::kStep_s;
   offset.R_BM = start.R_BM;
   offset.left = start.left;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     std::vector<FitSample<7>> samples;
     for (std::size_t i = 0; i < gyro.size(); ++i) {
-      const double at = static_cast<double>(i) + offset.delay_s / kStep_s;
+      const double at = static_cast<double>(i) + offset.delay_s / MotionSamples::kStep_s;
       const auto now = At(truth, at), before = At(truth, at - 1.0), after = At(truth, at + 1.0);
       if (!gyro[i] || !now || !before || !after) continue;
       FitSample<7> s;
       const Vec3 w_B = offset.R_BM * *now;
-      s.X.col(0) = offset.R_BM * (*after - *before) / (2.0 * kStep_s);
+      s.X.col(0) = offset.R_BM * (*after - *before) / (2.0 * MotionSamples::kStep_s);
       s.X.block<3, 3>(0, 1) = -core::Skew(w_B);
       s.X.block<3, 3>(0, 4).setIdentity();
       s.y = *gyro[i] - w_B;
-      s.block = i / kBlock;
+      s.block = i / kTimeBlock;
       samples.push_back(s);
     }
     const auto fit = FitRobustly(samples);
@@ -224,7 +225,7 @@ TimeOffsetResult EstimateTimeOffset(const std::vector<MotionSample>& samples) {
     return Refused(fmt::format(
         "delays of {:.2f} s and {:.2f} s explain the truth alike: the gait repeats itself, and "
         "there is too little other motion to tell",
-        best.lag * kStep_s, rival->lag * kStep_s));
+        best.lag * MotionSamples::kStep_s, rival->lag * MotionSamples::kStep_s));
   const auto offset = Refine(gyro, truth, FinestNear(gyro, truth, best));
   if (!offset) return Refused("too little motion to tell delay and axes of the truth");
   return {offset, {}};

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "analysis/field/truth_alignment.h"
 
-#include <numbers>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/config/field.h"
+#include "core/math/angles.h"
 #include "core/math/so3.h"
 
 namespace scoria::analysis {
 namespace {
-
-constexpr double kDegreesPerRad = 180.0 / std::numbers::pi;
 
 nlohmann::json ToJson(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -51,12 +48,13 @@ TruthAlignmentResult TruthAlignmentEstimator::Estimate() const {
 std::string DescribeAlignment(const TruthAlignmentResult& result) {
   if (!result.alignment) return fmt::format("truth is not aligned: {}", result.refusal);
   const TimeOffset& o = result.alignment->offset;
-  const Vec3 rpy_deg = kDegreesPerRad * core::RpyFromRotation(o.R_BM) + Vec3::Zero();  // no -0
+  const Vec3 rpy_deg =
+      core::kDegreesPerRad * core::RpyFromRotation(o.R_BM) + Vec3::Zero();  // no -0
   std::string text = fmt::format(
       "truth is {:.1f} ms {} (standard error {:.1f} ms), its axes turned by roll {:.2f}, pitch "
       "{:.2f}, yaw {:.2f} deg ({:.2f}) on the trunk",
       1e3 * std::abs(o.delay_s), o.delay_s < 0.0 ? "early" : "late", 1e3 * o.sigma_s, rpy_deg.x(),
-      rpy_deg.y(), rpy_deg.z(), kDegreesPerRad * o.sigma_BM_rad.maxCoeff());
+      rpy_deg.y(), rpy_deg.z(), core::kDegreesPerRad * o.sigma_BM_rad.maxCoeff());
   if (const auto& arm = result.alignment->lever_arm) {
     text += fmt::format(", lever arm {:.3f}, {:.3f}, {:.3f} m ({:.3f}, {:.3f}, {:.3f}) by the {}",
                         arm->p_BM.x(), arm->p_BM.y(), arm->p_BM.z(), arm->sigma_m.x(),

@@ -3,23 +3,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/Cholesky>
 #include <nlohmann/json.hpp>
 
+#include "core/math/angles.h"
 #include "core/math/so3.h"
+#include "logs/vectors.h"
 
 namespace scoria::analysis {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kChord_m = 0.1, kMark_m = 0.5;
 constexpr double kRounding_m = 1e-9;     // of sums of chords
 constexpr double kLeastSegment_m = 1.0;  // below, a share of the distance says nothing
 constexpr double kNeesDof = 5.0;         // roll, pitch, body velocity
-
-Vec3 ToVec3(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
 
 /// Of the estimate over a stretch of path, in the heading at its start: each in its own.
 struct StretchError {
@@ -69,17 +67,17 @@ std::optional<double> HeightDrift(const logs::Row& row) noexcept {
 std::optional<Vec3> FromEstimatorFrame(const logs::Row& row, const Vec3& p_W_est) noexcept {
   if (!row.truth || !row.estimate) return std::nullopt;
   const double yaw_drift_rad = row.estimate->rpy_rad[2] - row.truth->rpy_rad[2];
-  return ToVec3(row.truth->p_WB_m) +
-         core::RotationZ(-yaw_drift_rad) * (p_W_est - ToVec3(row.estimate->p_WB_m));
+  return logs::ToVec3(row.truth->p_WB_m) +
+         core::RotationZ(-yaw_drift_rad) * (p_W_est - logs::ToVec3(row.estimate->p_WB_m));
 }
 
 std::optional<double> CalcNees(const logs::Row& row) {
   if (!row.truth || !row.estimate || !row.estimate->P_tilt_v) return std::nullopt;
-  const Mat3 R_error = core::RotationFromRpy(ToVec3(row.estimate->rpy_rad)) *
-                       core::RotationFromRpy(ToVec3(row.truth->rpy_rad)).transpose();
+  const Mat3 R_error = core::RotationFromRpy(logs::ToVec3(row.estimate->rpy_rad)) *
+                       core::RotationFromRpy(logs::ToVec3(row.truth->rpy_rad)).transpose();
   Eigen::Matrix<double, 5, 1> error;
   error << core::LogSo3(R_error).head<2>(),
-      ToVec3(row.estimate->v_WB_mps) - R_error * ToVec3(row.truth->v_WB_mps);
+      logs::ToVec3(row.estimate->v_WB_mps) - R_error * logs::ToVec3(row.truth->v_WB_mps);
   Eigen::Matrix<double, 5, 5> P = Eigen::Matrix<double, 5, 5>::Zero();  // its lower triangle
   auto entry = row.estimate->P_tilt_v->begin();
   for (int i = 0; i < P.rows(); ++i) {
@@ -196,7 +194,7 @@ void DriftTracker::End(bool fell) {
     const StretchError error = CalcStretchError(start_, end.pose);
     segments_.push_back({end.path_m, 100.0 * error.p_m.head<2>().norm() / end.path_m,
                          100.0 * error.p_m.z() / end.path_m,
-                         kDegrees * error.yaw_rad / end.path_m});
+                         core::kDegreesPerRad * error.yaw_rad / end.path_m});
   } else {
     ++stub_segments_;
   }
@@ -231,17 +229,18 @@ void EstimationAccumulator::AddRow(const logs::Row& row) {
 
 void EstimationAccumulator::AddErrors(const logs::TruthRow& truth,
                                       const logs::EstimateRow& estimate) noexcept {
-  drift_.Add(
-      {ToVec3(truth.p_WB_m), ToVec3(estimate.p_WB_m), truth.rpy_rad[2], estimate.rpy_rad[2]});
+  drift_.Add({logs::ToVec3(truth.p_WB_m), logs::ToVec3(estimate.p_WB_m), truth.rpy_rad[2],
+              estimate.rpy_rad[2]});
   const Vec3 v_true_B =
-      core::RotationFromRpy(ToVec3(truth.rpy_rad)).transpose() * ToVec3(truth.v_WB_mps);
-  const Vec3 v_est_B =
-      core::RotationFromRpy(ToVec3(estimate.rpy_rad)).transpose() * ToVec3(estimate.v_WB_mps);
+      core::RotationFromRpy(logs::ToVec3(truth.rpy_rad)).transpose() * logs::ToVec3(truth.v_WB_mps);
+  const Vec3 v_est_B = core::RotationFromRpy(logs::ToVec3(estimate.rpy_rad)).transpose() *
+                       logs::ToVec3(estimate.v_WB_mps);
   velocity_.Add((v_est_B - v_true_B).norm());
   roll_.Add(core::WrapToPi(estimate.rpy_rad[0] - truth.rpy_rad[0]));
   pitch_.Add(core::WrapToPi(estimate.rpy_rad[1] - truth.rpy_rad[1]));
   constexpr double kSame_m = 1e-6;
-  if ((ToVec3(estimate.p_WB_m) - ToVec3(truth.p_WB_m)).norm() > kSame_m) present_ = true;
+  if ((logs::ToVec3(estimate.p_WB_m) - logs::ToVec3(truth.p_WB_m)).norm() > kSame_m)
+    present_ = true;
 }
 
 void EstimationAccumulator::AddConsistency(const logs::Row& row) noexcept {

@@ -18,7 +18,7 @@ std::string ItemText(const MetricInfo& info, double value) {
 }
 
 /// A name before the first line, and items that are wrapped.
-std::string Paragraph(std::string_view name, const std::vector<std::string>& items) {
+std::string ParagraphOf(std::string_view name, const std::vector<std::string>& items) {
   constexpr std::size_t kWidth = 100, kIndent = 14;
   std::string text, line = fmt::format("  {:<{}}", name, kIndent - 2);
   for (std::size_t i = 0; i < items.size(); ++i) {
@@ -111,7 +111,7 @@ std::string DescribeMetrics(const Metrics& metrics, const EpisodeMetrics& m) {
     for (const Metric& metric : MetricsOf(metrics, family)) {
       if (const auto value = ValueOf(metric, m)) items.push_back(ItemText(metric.info, *value));
     }
-    if (!items.empty()) text += Paragraph(name, items);
+    if (!items.empty()) text += ParagraphOf(name, items);
   }
   for (const std::string& line : DescribeNotValid(metrics, m.groups, m.substitutes))
     text += "  " + line + "\n";

@@ -2,17 +2,15 @@
 #include "analysis/metrics/signal_distributions.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "analysis/metrics/estimation_metrics.h"
 #include "core/config/field.h"
+#include "core/math/angles.h"
 
 namespace scoria::analysis {
 namespace {
 
 using logs::RowGroup;
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 /// A chord that is shorter has no cost: the robot stands or turns in place.
 constexpr double kLeastChord_m = 0.02;
@@ -100,7 +98,7 @@ MetricInfo Describe(Signal signal) {
     }
     case Signal::kTiltError:
       return ShownAs(ErrorInfo("tilt error", "Errors of roll and pitch, root of their squares."),
-                     "rad", "deg", kDegrees, 2);
+                     "rad", "deg", core::kDegreesPerRad, 2);
   }
   return {};
 }

@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
+#include "analysis/plots/gnuplot.h"
+
 namespace scoria::analysis {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 bool HasValue(const std::vector<double>& values) {
   return std::ranges::any_of(values, [](double value) { return std::isfinite(value); });
@@ -38,7 +37,7 @@ std::vector<double> RowAt(const CoursePlot& plot, std::size_t i) {
     }
     for (const CourseLine& line : panel.lines) row.push_back(line.y[i]);
     for (std::size_t k = 0; k < panel.states.size(); ++k)
-      row.push_back(panel.states[k].holds[i] ? static_cast<double>(panel.states.size() - k) : kNan);
+      row.push_back(panel.states[k].holds[i] ? static_cast<double>(panel.states.size() - k) : kGap);
   }
   return row;
 }
@@ -54,7 +53,7 @@ void AddData(const CoursePlot& plot, Figure& figure) {
     bool breaks = !rows.empty() && plot.time_s[i] - rows.back()[0] > kGap_s;
     for (; gap < plot.gaps_s.size() && plot.time_s[i] >= plot.gaps_s[gap].second; ++gap)
       breaks = true;
-    if (breaks) rows.emplace_back(row.size(), kNan);
+    if (breaks) rows.emplace_back(row.size(), kGap);
     rows.push_back(std::move(row));
   }
   figure.Data("d", rows);

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "analysis/plots/fit_plot.h"
 
-#include <limits>
-
 #include <fmt/format.h>
 
+#include "analysis/plots/gnuplot.h"
 #include "analysis/plots/style.h"
 
 namespace scoria::analysis {
@@ -12,12 +11,11 @@ namespace {
 
 /// Adds a curve and its band. @returns its piece of the plot command.
 std::string AddCurve(const FitSeries& series, std::size_t arm, Figure& figure) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   const CurveFit& fit = series.fit;
   std::vector<std::vector<double>> curve;
   for (std::size_t i = 0; i < fit.x.size(); ++i) {
-    curve.push_back({fit.x[i], fit.y[i], fit.low.empty() ? kNan : fit.low[i],
-                     fit.high.empty() ? kNan : fit.high[i]});
+    curve.push_back({fit.x[i], fit.y[i], fit.low.empty() ? kGap : fit.low[i],
+                     fit.high.empty() ? kGap : fit.high[i]});
   }
   figure.Data(fmt::format("f{}", arm), curve);
   return fmt::format(

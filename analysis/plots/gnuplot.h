@@ -2,10 +2,14 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
 namespace scoria::analysis {
+
+/// Where a row of a figure has no value.
+inline constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
 
 /// One figure as a gnuplot script with its data inside. Render writes NAME.gp, .svg, .png and .pdf
 /// into the folder, so that a reader can restyle the figure without scoria.

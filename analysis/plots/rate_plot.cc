@@ -2,16 +2,14 @@
 #include "analysis/plots/rate_plot.h"
 
 #include <algorithm>
-#include <limits>
 
 #include <fmt/format.h>
 
+#include "analysis/plots/gnuplot.h"
 #include "analysis/plots/style.h"
 
 namespace scoria::analysis {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// Arms are set side by side so that their intervals do not cover each other.
 double Shift(const RatePlot& plot, std::size_t arm) {
@@ -34,8 +32,8 @@ std::string AddSeries(const RatePlot& plot, std::size_t arm, Figure& figure) {
       none.push_back({x, rate->interval.high});
     }
   }
-  if (seen.empty()) seen.push_back({kNan, kNan, kNan, kNan});
-  if (none.empty()) none.push_back({kNan, kNan});
+  if (seen.empty()) seen.push_back({kGap, kGap, kGap, kGap});
+  if (none.empty()) none.push_back({kGap, kGap});
   const std::string id = fmt::format("a{}", arm);
   figure.Data(id, seen);
   figure.Data(id + "n", none);

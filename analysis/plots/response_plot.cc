@@ -8,7 +8,7 @@
 namespace scoria::analysis {
 namespace {
 
-std::vector<std::vector<double>> Rows(const std::vector<std::array<double, 2>>& points) {
+std::vector<std::vector<double>> PointRows(const std::vector<std::array<double, 2>>& points) {
   std::vector<std::vector<double>> rows;
   for (const auto& [x, y] : points) rows.push_back({x, y});
   return rows;
@@ -21,8 +21,8 @@ std::string AddPanel(const ResponsePanel& panel, std::size_t index, Figure& figu
     const ResponseSeries& s = panel.series[arm];
     if (s.points.empty()) continue;
     const std::string id = fmt::format("r{}_{}", index, arm);
-    figure.Data(id + "p", Rows(s.points));
-    figure.Data(id + "m", Rows(s.means));
+    figure.Data(id + "p", PointRows(s.points));
+    figure.Data(id + "m", PointRows(s.means));
     pieces += fmt::format(
         "{}${}p u 1:2 w p pt {} ps 0.3 lc rgb '{}' notitle, ${}m u 1:2 w lp pt {} ps 0.6 lw 2 lc "
         "rgb '{}' t '{}'",

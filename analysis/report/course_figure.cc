@@ -4,18 +4,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 
 #include "analysis/metrics/estimation_metrics.h"
 #include "analysis/plots/course_plot.h"
 #include "core/files.h"
+#include "core/math/angles.h"
 #include "core/robot/contact.h"
 
 namespace scoria::analysis {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<const char*, 4> kLegs = {"FL", "FR", "HL", "HR"};
 constexpr std::array<const char*, 6> kStages = {"mpc",     "body",    "estimator",
@@ -69,8 +68,8 @@ struct CourseColumns {
     const Vec3 rpy_rad = motion ? motion->rpy_rad : Vec3(kNan, kNan, kNan);
     const double c = std::cos(rpy_rad.z()), s = std::sin(rpy_rad.z());
     speed_mps.push_back(motion ? c * motion->v_WB.x() + s * motion->v_WB.y() : kNan);
-    roll_deg.push_back(rpy_rad.x() * kDegrees);
-    pitch_deg.push_back(rpy_rad.y() * kDegrees);
+    roll_deg.push_back(rpy_rad.x() * core::kDegreesPerRad);
+    pitch_deg.push_back(rpy_rad.y() * core::kDegreesPerRad);
   }
 };
 

@@ -38,4 +38,8 @@ std::string ShareText(std::uint64_t part, std::uint64_t whole, int digits) {
                     digits);
 }
 
+std::string CountText(const RateEstimate& falls) {
+  return fmt::format("{} in {:.0f} m", falls.events, falls.exposure);
+}
+
 }  // namespace scoria::analysis

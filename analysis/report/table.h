@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/report/document.h"
+#include "analysis/statistics/rate.h"
 #include "analysis/study/results.h"
 
 namespace scoria::analysis {
@@ -59,6 +60,9 @@ using ArmCounts = std::map<std::string, std::map<std::string, std::uint64_t>>;
 
 /// A dash for nothing and for what is not finite.
 [[nodiscard]] std::string NumberText(std::optional<double> value, int digits);
+
+/// "7 in 503 m".
+[[nodiscard]] std::string CountText(const RateEstimate& falls);
 
 /// "0.032", "< 0.0001".
 [[nodiscard]] std::string PValueText(double p);

@@ -7,9 +7,8 @@
 namespace scoria::analysis {
 
 void DelayHistogram::Add(double delay_s) noexcept {
-  constexpr double kMiddle = static_cast<double>(kBins / 2);
-  const double bin =
-      std::clamp(std::round(delay_s / kBin_s) + kMiddle, 0.0, static_cast<double>(kBins - 1));
+  const double bin = std::clamp(std::round(delay_s / kBin_s) + static_cast<double>(kMiddle), 0.0,
+                                static_cast<double>(kBins - 1));
   ++bins.counts[static_cast<std::size_t>(bin)];
 }
 
@@ -20,7 +19,7 @@ double DelayHistogram::Quantile(double share) const noexcept {
   std::uint64_t below = 0;
   std::size_t bin = 0;
   while (below + bins.counts[bin] <= rank) below += bins.counts[bin++];
-  return (static_cast<double>(bin) - static_cast<double>(kBins / 2)) * kBin_s;
+  return (static_cast<double>(bin) - static_cast<double>(kMiddle)) * kBin_s;
 }
 
 DelayHistogram& DelayHistogram::operator+=(const DelayHistogram& other) noexcept {

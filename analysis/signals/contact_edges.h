@@ -11,7 +11,7 @@ namespace scoria::analysis {
 class DelayHistogram {
  public:
   static constexpr double kBin_s = 0.002;
-  static constexpr std::size_t kBins = 251;
+  static constexpr std::size_t kBins = 251, kMiddle = kBins / 2;
 
   void Add(double delay_s) noexcept;
   /// @param share in [0, 1]. @returns 0 without delays.

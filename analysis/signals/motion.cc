@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "analysis/signals/motion.h"
 
+#include "logs/vectors.h"
+
 namespace scoria::analysis {
 namespace {
 
-Vec3 ToVec3(const logs::Array3& v) { return {v[0], v[1], v[2]}; }
-
 template <class Group>
 TrunkMotion MotionOf(const Group& group, MotionSource source) {
-  return {source, ToVec3(group.p_WB_m), ToVec3(group.v_WB_mps), ToVec3(group.rpy_rad)};
+  return {source, logs::ToVec3(group.p_WB_m), logs::ToVec3(group.v_WB_mps),
+          logs::ToVec3(group.rpy_rad)};
 }
 
 }  // namespace

@@ -6,10 +6,11 @@
 
 #include <boost/math/distributions/students_t.hpp>
 
+#include "analysis/statistics/interval.h"
+
 namespace scoria::analysis {
 
 MeanEstimate EstimateMean(std::span<const double> values, double confidence) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   MeanEstimate e{values.size(), kNan, {-kInfinity, kInfinity}, 0.0};
   if (values.empty()) return e;

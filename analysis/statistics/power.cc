@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/non_central_t.hpp>
@@ -11,12 +10,13 @@
 #include <boost/math/distributions/poisson.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
+#include "analysis/statistics/interval.h"
+
 namespace scoria::analysis {
 namespace {
 
 using Binomial = boost::math::binomial_distribution<double>;
 using Normal = boost::math::normal_distribution<double>;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Bisection of a rising condition on a logarithmic scale. @returns where it begins to hold.
 /// @pre it holds at `high`.

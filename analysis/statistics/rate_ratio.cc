@@ -7,10 +7,11 @@
 #include <boost/math/distributions/beta.hpp>
 #include <boost/math/distributions/binomial.hpp>
 
+#include "analysis/statistics/interval.h"
+
 namespace scoria::analysis {
 
 RatioEstimate EstimateRateRatio(const RateEstimate& a, const RateEstimate& b, double confidence) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   RatioEstimate r;
   const long total = a.events + b.events;
   if (total == 0 || a.exposure <= 0.0 || b.exposure <= 0.0) {

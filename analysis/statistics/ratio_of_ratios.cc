@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <limits>
 
+#include "analysis/statistics/interval.h"
+
 namespace scoria::analysis {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Events of a in the first setting, given the margins of the table of four.
 class Hypergeometric {

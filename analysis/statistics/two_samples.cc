@@ -2,10 +2,11 @@
 #include "analysis/statistics/two_samples.h"
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include <boost/math/distributions/students_t.hpp>
+
+#include "analysis/statistics/interval.h"
 
 namespace scoria::analysis {
 namespace {
@@ -25,7 +26,6 @@ Sample Describe(std::span<const double> values) {
 }  // namespace
 
 TwoSamples CompareSamples(std::span<const double> a, std::span<const double> b, double confidence) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Sample first = Describe(a), second = Describe(b);
   TwoSamples out{a.size(), b.size(), first.mean, second.mean, {-kInfinity, kInfinity}, {}, {}};
   const double freedoms_a = first.count - 1.0, freedoms_b = second.count - 1.0;

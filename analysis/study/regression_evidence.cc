@@ -12,8 +12,6 @@
 namespace scoria::analysis {
 namespace {
 
-constexpr std::string_view kFalls = "falls";
-
 /// Of the metrics that are looked at: falls are there once, and times of the clock are not.
 bool IsJudged(const MetricInfo& info) {
   return info.better != Better::kNeither && info.family != MetricFamily::kTiming &&
@@ -106,7 +104,7 @@ RegressionEvidence::Test RegressionEvidence::MakeTest(const Metric& metric, cons
     if (const auto twin = twins.find(seed); twin != twins.end())
       differences.push_back(twin->second - value);
   }
-  if (metric.info.key == kFalls || !AreContinuous(values))
+  if (metric.info.key == kFallsKey || !AreContinuous(values))
     return {metric, place, SequentialSignTest(Alternative::kGreater)};
   if (const auto pilot = SpreadOfTwins(differences))
     return {metric, place, SequentialTTest(Alternative::kGreater, *pilot), true};
@@ -146,7 +144,7 @@ void RegressionEvidence::AddPair(const EpisodeRecord& before, const EpisodeRecor
                                  const EpisodeRecord& now, Test& t) {
   const auto a = ValueOf(t.metric, before.metrics), b = ValueOf(t.metric, now.metrics);
   if (!a || !b) return;
-  if (t.metric.info.key == kFalls) {
+  if (t.metric.info.key == kFallsKey) {
     if (const auto excess = ExcessOfFalls(before, now)) t.Add(*a, *b, *excess);
     return;
   }

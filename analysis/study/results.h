@@ -15,6 +15,9 @@
 
 namespace scoria::analysis {
 
+/// The metric that is tested as counts.
+inline constexpr std::string_view kFallsKey = "falls";
+
 /// One episode as its folder tells it.
 struct EpisodeRecord {
   std::string id, arm, end, message;

@@ -16,8 +16,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::string_view kFalls = "falls";
-
 /// Falls of a beyond its share; nothing where an arm has no metres.
 std::optional<double> ExcessOfFalls(std::span<const EpisodeRecord> episodes, const std::string& a,
                                     const std::string& b) {
@@ -91,7 +89,7 @@ StopRecord StopFromJson(const json& j) {
 SequentialStop::SequentialStop(const StopRule& rule, const std::vector<std::string>& arms) {
   SCORIA_DEMAND(arms.size() > 1, "{} arms", arms.size());
   record_.rule = rule;
-  if (rule.when_decided != kFalls) {
+  if (rule.when_decided != kFallsKey) {
     const Metrics metrics = AllMetrics();
     const Metric* metric = FindMetric(metrics, rule.when_decided);
     SCORIA_DEMAND(metric != nullptr, "{}", rule.when_decided);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -15,13 +14,13 @@
 #include "analysis/report/json_text.h"
 #include "analysis/terrain/ground_colour.h"
 #include "core/files.h"
+#include "core/math/angles.h"
 
 namespace scoria::analysis {
 namespace {
 
 using terrains::Heightfield;
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr int kPanel_px = 800, kMargin_px = 24, kCaption_px = 64, kLegend_px = 56;
 
 cv::Vec3d ToPixel(const Vec3& rgb) { return 255.0 * cv::Vec3d(rgb.z(), rgb.y(), rgb.x()); }
@@ -85,7 +84,8 @@ void WriteRelief(const Heightfield& ground, const terrains::TerrainParams& param
   DrawPanel(
       image, ground, detail_m, 2 * kMargin_px + kPanel_px,
       fmt::format("centre; nu(1 m) {:.3f} m, H {:.2f}, slope {:.0f} deg mean, {:.0f} deg 95 %",
-                  s.nu_1m_m, s.hurst, s.slope_mean_rad * kDegrees, s.slope_95_rad * kDegrees));
+                  s.nu_1m_m, s.hurst, s.slope_mean_rad * core::kDegreesPerRad,
+                  s.slope_95_rad * core::kDegreesPerRad));
   DrawLegend(image, ground, s);
   std::vector<uchar> png;
   cv::imencode(".png", image, png);

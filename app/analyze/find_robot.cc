@@ -42,7 +42,7 @@ std::vector<std::string> RobotNames() {
 fs::path FileOf(const std::string& name_or_file) {
   if (fs::is_regular_file(name_or_file)) return name_or_file;
   for (const fs::path& folder : RobotFolders()) {
-    const fs::path file = folder / name_or_file / (name_or_file + ".yaml");
+    fs::path file = folder / name_or_file / (name_or_file + ".yaml");
     if (fs::is_regular_file(file)) return file;
   }
   return {};

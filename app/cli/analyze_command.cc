@@ -13,7 +13,7 @@
 namespace scoria::app {
 namespace {
 
-struct Options {
+struct AnalyzeArguments {
   std::vector<std::filesystem::path> logs;
   std::filesystem::path out, labels;
   AnalyzeOptions how;
@@ -35,7 +35,7 @@ void Print(const LogAnalysis& analysis) {
   if (analysis.cpu_power_W) fmt::print("  CPU power {:.1f} W\n", *analysis.cpu_power_W);
 }
 
-std::vector<LogAnalysis> AnalyzeAll(const Options& o) {
+std::vector<LogAnalysis> AnalyzeAll(const AnalyzeArguments& o) {
   std::vector<LogAnalysis> all;
   const std::vector<LogEntry> entries = ListLogs(o.logs);
   ProgressBar bar("analyze");
@@ -52,7 +52,7 @@ std::vector<LogAnalysis> AnalyzeAll(const Options& o) {
 }  // namespace
 
 void AddAnalyze(CLI::App& app) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<AnalyzeArguments>();
   CLI::App* command =
       app.add_subcommand("analyze", "judge logs of robots, and compute what their signals allow");
   command

@@ -17,7 +17,7 @@
 namespace scoria::app {
 namespace {
 
-struct Options {
+struct CheckArguments {
   std::vector<std::string> paths, set;
   std::string out = "out/check", junit, json, shard;
   int workers = 2;
@@ -71,7 +71,7 @@ void PrintEnd(const CheckRun& run, std::size_t tests) {
   if (!run.disk_problem.empty()) Note(run.disk_problem);
 }
 
-int Check(const Options& o) {
+int Check(const CheckArguments& o) {
   CheckSelection selection{{o.paths.begin(), o.paths.end()}, o.set, {}};
   if (!o.shard.empty()) selection.shard = *ToShard(o.shard);
   const FoundTests found = FindTests(selection);
@@ -110,7 +110,7 @@ int Check(const Options& o) {
 }  // namespace
 
 void AddCheck(CLI::App& app, int& exit_code) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<CheckArguments>();
   CLI::App* check = app.add_subcommand(
       "check", "walk scenarios and campaigns as tests and judge them by what they expect");
   check->add_option("tests", o->paths, "folders, with all below them, and files")

@@ -16,7 +16,7 @@
 namespace scoria::app {
 namespace {
 
-struct Options {
+struct CompareArguments {
   std::string a, b;
   AnalyzeOptions how;
   double alpha = 0.05;
@@ -45,7 +45,7 @@ void Write(const WalkComparison& comparison, analysis::Document page,
 }  // namespace
 
 void AddCompare(CLI::App& app, int& exit_code) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<CompareArguments>();
   CLI::App* command = app.add_subcommand(
       "compare", "two sets of walks, logs, runs or campaigns: what differs, by which evidence");
   const char* kSet = "a log, a folder of logs, a run, or a campaign's arm as FOLDER:ARM";

@@ -13,14 +13,14 @@
 namespace scoria::app {
 namespace {
 
-struct Options {
+struct ExportArguments {
   ExportOptions what;
   std::vector<std::string> topics;
   std::string format;
   bool signals = false;
 };
 
-ExportResult Export(const Options& o) {
+ExportResult Export(const ExportArguments& o) {
   if (o.signals) return ExportSignals(o.what);
   const bool is_mcap = o.format.empty() ? o.what.out.extension() == ".mcap" : o.format == "mcap";
   return is_mcap ? ExportMcap(o.what) : ExportCsv(o.what);
@@ -29,7 +29,7 @@ ExportResult Export(const Options& o) {
 }  // namespace
 
 void AddExport(CLI::App& app, int& exit_code) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<ExportArguments>();
   CLI::App* command =
       app.add_subcommand("export", "write a log as CSV files, as MCAP, or as canonical signals");
   command->add_option("log", o->what.log, "a log: a file, or the folder of a bag")->required();

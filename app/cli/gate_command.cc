@@ -14,7 +14,7 @@
 namespace scoria::app {
 namespace {
 
-struct Options {
+struct GateArguments {
   std::string file, baseline, baseline_program, twin, walked, out, json;
   std::vector<std::string> set;
   double alpha = 0.01;
@@ -57,7 +57,7 @@ int ExitCodeOf(const GateResult& result) {
   return kOk;
 }
 
-int RunCommand(const Options& o) {
+int RunCommand(const GateArguments& o) {
   const Baseline baseline = LoadBaseline(o.baseline);
   GateOptions options;
   options.file = o.file;
@@ -87,7 +87,7 @@ int RunCommand(const Options& o) {
 }  // namespace
 
 void AddGate(CLI::App& app, int& exit_code) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<GateArguments>();
   CLI::App* gate = app.add_subcommand(
       "gate", "fail on evidence that episodes are worse than those of a baseline's campaign");
   gate->add_option("campaign", o->file, "campaign YAML (default: that of the baseline)");

@@ -18,7 +18,7 @@
 namespace scoria::app {
 namespace {
 
-struct Options {
+struct ReplayArguments {
   LogInputOptions input;
   std::vector<std::string> set, variants;
   ReplayOutputs outputs;
@@ -27,7 +27,7 @@ struct Options {
 };
 
 /// The controller of the log's own walk, step by step.
-int ReplayController(const Options& o) {
+int ReplayController(const ReplayArguments& o) {
   const ReplayResult result = ReplayLog(o.input.log, o.set);
   if (!result.file_problem.empty()) fmt::print("{}\n", result.file_problem);
   fmt::print("replayed {} steps: {}\n", result.steps,
@@ -40,7 +40,7 @@ int ReplayController(const Options& o) {
 }
 
 /// Where none are asked for: the estimators that there are.
-std::vector<Variant> VariantsOf(const Options& o) {
+std::vector<Variant> VariantsOf(const ReplayArguments& o) {
   std::vector<Variant> variants;
   for (const std::string& text : o.variants) variants.push_back(ParseVariant(text));
   if (!variants.empty()) return variants;
@@ -49,7 +49,7 @@ std::vector<Variant> VariantsOf(const Options& o) {
   return variants;
 }
 
-int ReplayRows(const Options& o) {
+int ReplayRows(const ReplayArguments& o) {
   const ReplayReport report = ReplayVariants(o.input, VariantsOf(o), o.outputs, o.workers);
   if (!report.inputs.problem.empty()) Note(report.inputs.problem);
   fmt::print("{}", DescribeReplay(report));
@@ -61,7 +61,7 @@ int ReplayRows(const Options& o) {
 }  // namespace
 
 void AddReplay(CLI::App& app, int& exit_code) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<ReplayArguments>();
   CLI::App* replay = app.add_subcommand(
       "replay", "estimate again on what a log's sensors said, as it was or with other variants");
   replay->add_option("log", o->input.log, "a log: a file, or the folder of a bag")->required();

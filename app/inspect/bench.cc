@@ -30,7 +30,7 @@ constexpr double kPerCall_rad = 0.01;        // how fast the inputs of such call
 constexpr double kUsPerS = 1e6;
 constexpr int kMostRepeats = 1000, kMostMegabytes = 100'000;
 
-struct Options {
+struct BenchOptions {
   std::string folder, log, scenario = "scenarios/rough.yaml";
   std::vector<std::string> set;
   int repeats = 5, megabytes = 200;
@@ -67,7 +67,7 @@ nlohmann::json ToJson(const controller::QpBenchmark& b) {
           {"warm_iterations", b.warm_mean_iterations}};
 }
 
-void BenchQp(const Options& o) {
+void BenchQp(const BenchOptions& o) {
   nlohmann::json json = nlohmann::json::array();
   const controller::QpSolvers solvers = controller::MakeQpSolvers();
   for (const controller::QpBenchmark& b :
@@ -90,7 +90,7 @@ void BenchQp(const Options& o) {
 }
 
 /// Whole-body model at poses around standing, as the controller calls it.
-void BenchModel(const Options& o) {
+void BenchModel(const BenchOptions& o) {
   const Scenario scenario = LoadScenario(o.scenario, o.set);
   const core::RobotDescription robot = core::LoadRobot(scenario.robot);
   const core::WholeBodyModel model(robot, scenario.gravity_mps2);
@@ -117,7 +117,7 @@ void BenchModel(const Options& o) {
 }
 
 /// The invariant filter of a robot that stands on four feet: one prediction and one correction.
-void BenchEstimator(const Options& o) {
+void BenchEstimator(const BenchOptions& o) {
   constexpr double kFoot_m = 0.003, kTurning_radps = 0.1, kStart_sigma = 0.01;
   const Scenario scenario = LoadScenario(o.scenario, o.set);
   const core::RobotDescription robot = core::LoadRobot(scenario.robot);
@@ -159,7 +159,7 @@ void BenchEstimator(const Options& o) {
 }
 
 /// Physics alone: the robot stands on the scenario's ground under joint control.
-void BenchPhysics(const Options& o) {
+void BenchPhysics(const BenchOptions& o) {
   constexpr int kSteps = 5000;
   constexpr double kStiffness_Nm_per_rad = 100.0, kDamping_Nms_per_rad = 2.5;
   const Scenario scenario = LoadScenario(o.scenario, o.set);
@@ -197,7 +197,7 @@ void BenchPhysics(const Options& o) {
 }
 
 /// The whole loop: where the time of an episode goes.
-void BenchEpisode(const Options& o) {
+void BenchEpisode(const BenchOptions& o) {
   const Scenario scenario = LoadScenario(o.scenario, o.set);
   const core::RobotDescription robot = core::LoadRobot(scenario.robot);
   const terrains::Heightfield ground =
@@ -222,7 +222,7 @@ void BenchEpisode(const Options& o) {
 }
 
 /// Reading of logs: one that is given, or one of each format.
-void BenchLogs(const Options& o) {
+void BenchLogs(const BenchOptions& o) {
   const std::vector<LogBenchmark> all =
       o.log.empty() ? BenchmarkLogFormats(o.megabytes) : std::vector{BenchmarkLog(o.log, o.log)};
   nlohmann::json json = nlohmann::json::array();
@@ -242,7 +242,7 @@ void BenchLogs(const Options& o) {
 }
 
 /// The throughput of two worker processes over that of one: the best of three pairs.
-void BenchWorkers(const Options& o) {
+void BenchWorkers(const BenchOptions& o) {
   constexpr int kEpisodes = 6, kPairs = 3;
   const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
   nlohmann::json json = nlohmann::json::array();
@@ -263,14 +263,14 @@ void BenchWorkers(const Options& o) {
 }
 
 CLI::App* AddPart(CLI::App& bench, const std::string& name, const std::string& what,
-                  const std::shared_ptr<Options>& o, void (*function)(const Options&)) {
+                  const std::shared_ptr<BenchOptions>& o, void (*function)(const BenchOptions&)) {
   CLI::App* part = bench.add_subcommand(name, what);
   part->add_flag("--json", o->json, "print JSON");
   part->callback([o, function] { function(*o); });
   return part;
 }
 
-void AddScenario(CLI::App* part, const std::shared_ptr<Options>& o) {
+void AddScenario(CLI::App* part, const std::shared_ptr<BenchOptions>& o) {
   part->add_option("scenario", o->scenario, "scenario YAML (default scenarios/rough.yaml)");
   part->add_option("--set", o->set, "override a key, as operator.distance_m=5");
 }
@@ -278,7 +278,7 @@ void AddScenario(CLI::App* part, const std::shared_ptr<Options>& o) {
 }  // namespace
 
 void AddBench(CLI::App& app) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<BenchOptions>();
   CLI::App* bench = app.add_subcommand("bench", "time parts of the program");
   bench->require_subcommand(1);
   CLI::App* qp = AddPart(*bench, "qp", "solve and time the QP sets of a folder", o, BenchQp);

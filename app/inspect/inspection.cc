@@ -6,7 +6,6 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
-#include <numbers>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -22,6 +21,7 @@
 #include "controller/stand_up.h"
 #include "core/config/scale.h"
 #include "core/files.h"
+#include "core/math/angles.h"
 #include "core/robot/normalise.h"
 #include "core/robot/whole_body.h"
 #include "core/robot_files/inspect.h"
@@ -247,7 +247,6 @@ terrains::TerrainParams LoadTerrain(const std::string& name, const std::vector<s
 
 void PrintTerrain(const terrains::TerrainParams& params, const terrains::Terrain& terrain,
                   const terrains::TerrainStatistics& s, std::size_t rocks) {
-  constexpr double kDegrees = 180.0 / std::numbers::pi;
   const terrains::Heightfield& ground = terrain.ground;
   const double spacing_m = ground.resolution_m(), edge_m = ground.nodes() * spacing_m;
   const terrains::RoughnessParams& asked = params.roughness;
@@ -259,7 +258,7 @@ void PrintTerrain(const terrains::TerrainParams& params, const terrains::Terrain
              s.nu_10cm_m, s.nu_25cm_m, s.nu_1m_m, wanted(params.roughness_scale * asked.nu_1m_m));
   fmt::print("  Hurst exponent         {:.4f}{}\n", s.hurst, wanted(asked.hurst));
   fmt::print("  slope                  {:.1f} deg mean, {:.1f} deg 95 %\n",
-             s.slope_mean_rad * kDegrees, s.slope_95_rad * kDegrees);
+             s.slope_mean_rad * core::kDegreesPerRad, s.slope_95_rad * core::kDegreesPerRad);
   if (params.rocks.area_fraction > 0.0) {
     const double expected =
         terrains::RockDensity(params.rocks, params.rocks.min_diameter_m) * edge_m * edge_m;

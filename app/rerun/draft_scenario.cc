@@ -20,8 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMmPerM = 1e3;
-
 /// Lags at which footholds and presets are compared: a step, and what the trunk spans.
 constexpr double kShort_m = 0.25, kLong_m = 1.0;
 
@@ -131,11 +129,11 @@ std::string DraftTerrain(const DraftScenarioOptions& options, const WalkSummary&
   std::string text = fmt::format(
       "# A guess: nearest of {} presets to the footholds, the plainest of those that are equally "
       "near. Footholds differ in\n# height by {:.0f} mm at {} m and {:.0f} mm at {} m;",
-      presets.size(), kMmPerM * *walk.roughness.Nu_m(kShort_m), kShort_m,
-      kMmPerM * *walk.roughness.Nu_m(kLong_m), kLong_m);
+      presets.size(), 1e3 * *walk.roughness.Nu_m(kShort_m), kShort_m,
+      1e3 * *walk.roughness.Nu_m(kLong_m), kLong_m);
   for (std::size_t i = 0; i < std::min<std::size_t>(3, presets.size()); ++i)
     text += fmt::format(" {}: {:.0f} and {:.0f} mm{}", presets[i].file.stem().string(),
-                        kMmPerM * presets[i].nu_short_m, kMmPerM * presets[i].nu_long_m,
+                        1e3 * presets[i].nu_short_m, 1e3 * presets[i].nu_long_m,
                         i + 1 < std::min<std::size_t>(3, presets.size()) ? "," : ".");
   return text + "\n# Not known: slope, rocks, friction and stiffness, which are the preset's.\n" +
          fmt::format("terrain: {{base: {}, roughness_scale: {:.2f}}}\n",

@@ -5,13 +5,12 @@
 
 #include "controller/estimation/leg_odometry.h"
 #include "core/math/so3.h"
+#include "logs/vectors.h"
 
 namespace scoria::app {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-Vec3 ToVec3(const logs::Array3& v) { return {v[0], v[1], v[2]}; }
 
 /// What is absent is not finite: the guard of samples keeps the last good value.
 LegArray<Vec3> OrNaN(const std::optional<logs::Array12>& v) {
@@ -21,11 +20,11 @@ LegArray<Vec3> OrNaN(const std::optional<logs::Array12>& v) {
 
 std::optional<Mat3> LoggedAttitude(const LogInputs& inputs, const logs::Row& row) {
   if (row.measured && row.measured->rpy_WS_rad)
-    return Mat3(core::RotationFromRpy(ToVec3(*row.measured->rpy_WS_rad)) *
+    return Mat3(core::RotationFromRpy(logs::ToVec3(*row.measured->rpy_WS_rad)) *
                 inputs.robot.R_BS.transpose());
   if (row.truth && !inputs.truth_is_of_markers)
-    return core::RotationFromRpy(ToVec3(row.truth->rpy_rad));
-  if (row.estimate) return core::RotationFromRpy(ToVec3(row.estimate->rpy_rad));
+    return core::RotationFromRpy(logs::ToVec3(row.truth->rpy_rad));
+  if (row.estimate) return core::RotationFromRpy(logs::ToVec3(row.estimate->rpy_rad));
   return std::nullopt;
 }
 
@@ -87,9 +86,9 @@ void LogObserver::TakeSamples(const logs::Row& row) {
   z_.q = OrNaN(m.q_rad);
   z_.qd = OrNaN(m.qd_radps);
   z_.tau_Nm = inputs_.torques ? OrNaN(m.tau_Nm) : ZeroPerLeg();
-  z_.w_WS_S = m.w_WS_S_radps ? ToVec3(*m.w_WS_S_radps) : Vec3::Constant(kNaN);
+  z_.w_WS_S = m.w_WS_S_radps ? logs::ToVec3(*m.w_WS_S_radps) : Vec3::Constant(kNaN);
   if (inputs_.accelerometer) {
-    z_.a_WS_S = m.a_WS_S_mps2 ? ToVec3(*m.a_WS_S_mps2) : Vec3::Constant(kNaN);
+    z_.a_WS_S = m.a_WS_S_mps2 ? logs::ToVec3(*m.a_WS_S_mps2) : Vec3::Constant(kNaN);
   } else {  // as if the trunk did not accelerate
     const Mat3 R_WB = operating_ ? sensed().estimate.state.R_WB
                                  : LoggedAttitude(inputs_, row).value_or(Mat3(Mat3::Identity()));
@@ -102,10 +101,10 @@ void LogObserver::TakeSamples(const logs::Row& row) {
   if (!row.truth && !row.true_contacts) return;  // the last one holds
   SensorFrame::Truth& truth = z_.truth ? *z_.truth : z_.truth.emplace();
   if (row.truth) {
-    truth.state.p_WB = ToVec3(row.truth->p_WB_m);
-    truth.state.R_WB = core::RotationFromRpy(ToVec3(row.truth->rpy_rad));
-    truth.state.v_WB = ToVec3(row.truth->v_WB_mps);
-    truth.state.w_WB = ToVec3(row.truth->w_WB_radps);
+    truth.state.p_WB = logs::ToVec3(row.truth->p_WB_m);
+    truth.state.R_WB = core::RotationFromRpy(logs::ToVec3(row.truth->rpy_rad));
+    truth.state.v_WB = logs::ToVec3(row.truth->v_WB_mps);
+    truth.state.w_WB = logs::ToVec3(row.truth->w_WB_radps);
     truth.state.q = z_.q;
     truth.state.qd = z_.qd;
   }

@@ -12,13 +12,12 @@
 #include "logs/format/open_log.h"
 #include "logs/messages/read_messages.h"
 #include "logs/read_rows.h"
+#include "logs/vectors.h"
 
 namespace scoria::app {
 namespace {
 
 namespace msg = logs::msg;
-
-Vec3 ToVec3(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
 template <class T>
 LegArray<T> ToLegs(const std::array<T, 4>& v) {
@@ -32,8 +31,8 @@ SensorFrame ToFrame(const msg::ControllerInput& m) {
   z.q = Unflatten(m.q_rad);
   z.qd = Unflatten(m.qd_radps);
   z.tau_Nm = Unflatten(m.tau_nm);
-  z.a_WS_S = ToVec3(m.specific_force_mps2);
-  z.w_WS_S = ToVec3(m.rate_radps);
+  z.a_WS_S = logs::ToVec3(m.specific_force_mps2);
+  z.w_WS_S = logs::ToVec3(m.rate_radps);
   z.foot_force_raw = ToLegs(m.foot_force_raw);
   return z;
 }

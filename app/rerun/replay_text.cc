@@ -3,19 +3,19 @@
 
 #include <algorithm>
 #include <functional>
-#include <numbers>
 #include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include "core/math/angles.h"
 
 namespace scoria::app {
 namespace {
 
 using nlohmann::json;
 
-constexpr double kDegPerRad = 180.0 / std::numbers::pi, kMmPerM = 1e3, kMsPerS = 1e3,
-                 kPercent = 100.0;
+constexpr double kMmPerM = 1e3, kMsPerS = 1e3, kPercent = 100.0;
 
 using Number = std::optional<double>;
 
@@ -56,9 +56,9 @@ std::vector<Score> Scores() {
        [](const M& m) { return If(m.rpe_1m.stretches > 0, kMmPerM * m.rpe_1m.horizontal_rms_m); }},
       {"velocity error", "m/s", 4, [](const M& m) { return If(m.rows > 0, m.velocity_rmse_mps); }},
       {"roll error", "deg", 3,
-       [](const M& m) { return If(m.rows > 0, kDegPerRad * m.roll_rmse_rad); }},
+       [](const M& m) { return If(m.rows > 0, core::kDegreesPerRad * m.roll_rmse_rad); }},
       {"pitch error", "deg", 3,
-       [](const M& m) { return If(m.rows > 0, kDegPerRad * m.pitch_rmse_rad); }},
+       [](const M& m) { return If(m.rows > 0, core::kDegreesPerRad * m.pitch_rmse_rad); }},
       {"NEES over its freedoms", "", 2,
        [](const M& m) { return If(m.nees_rows > 0, m.nees_ratio); }},
       {"NIS over its freedoms", "", 2, [](const M& m) { return If(m.nis_dof > 0, m.nis_ratio); }},

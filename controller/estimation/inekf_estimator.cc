@@ -156,7 +156,7 @@ InekfCorrection InekfEstimator::Correct(const EstimatorInput& in, Counters& coun
                  Isotropic(params_.foot_position_m)};
   }
   LiftSlippedFeet(feet, in.imu_dt_s, counters);
-  const InekfCorrection correction = filter_.Correct(feet);
+  InekfCorrection correction = filter_.Correct(feet);
   if (correction.status != InekfStatus::kOk) counters.Add(Count::kEstimateRefused);
   return correction;
 }

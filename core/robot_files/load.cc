@@ -15,15 +15,12 @@
 #include "core/robot_files/foot_clearance.h"
 #include "core/robot_files/shape_size.h"
 #include "core/robot_files/urdf.h"
+#include "core/robot_files/urdf_error.h"
 #include "core/robot_files/urdf_tree.h"
 #include "core/robot_files/xacro.h"
 
 namespace scoria::core {
 namespace {
-
-[[noreturn]] void Fail(const RobotConfig& config, const std::string& key, const std::string& rule) {
-  throw ConfigError({config.urdf.string(), 0, 0}, key, rule);
-}
 
 /// Refuses shapes that cannot be of this robot, as of meshes in millimetres without scale.
 void CheckShapeSizes(const RobotDescription& robot) {
@@ -32,7 +29,7 @@ void CheckShapeSizes(const RobotDescription& robot) {
   for (const Shape& shape : robot.collisions) {
     const double extent_m = ExtentOf(shape).maxCoeff();
     if (extent_m <= kLargest * size_m) continue;
-    Fail(
+    FailUrdf(
         robot.config, shape.link,
         fmt::format("collides as {} of {:.4g} m; a robot with {:.2f} m from hip to hip and down to "
                     "the foot may have shapes of up to {:.3g} m{}",
@@ -57,8 +54,9 @@ void Mount(const PayloadParams& params, RobotDescription& robot) {
 
 RobotDescription ReadRobot(const RobotConfig& config) {
   std::ifstream in(config.urdf);
-  if (!in) Fail(config, "urdf", "cannot read the file");
-  if (std::filesystem::is_directory(config.urdf)) Fail(config, "urdf", "is a folder, not a URDF");
+  if (!in) FailUrdf(config, "urdf", "cannot read the file");
+  if (std::filesystem::is_directory(config.urdf))
+    FailUrdf(config, "urdf", "is a folder, not a URDF");
   std::stringstream text;
   text << in.rdbuf();
   const bool is_xacro = KindOfContent(text.str()).name == kXacro;
@@ -66,12 +64,12 @@ RobotDescription ReadRobot(const RobotConfig& config) {
 }
 
 RobotDescription LoadRobot(const RobotConfig& config) {
-  const RobotDescription robot = ReadRobot(config);
+  RobotDescription robot = ReadRobot(config);
   for (const Leg leg : kLegs) {
     for (const JointDescription& joint : robot.legs[leg].joints) {
       if (joint.effort_Nm <= 0.0)
-        Fail(config, joint.name,
-             "needs a positive effort limit, in the URDF or as limits of the robot's YAML");
+        FailUrdf(config, joint.name,
+                 "needs a positive effort limit, in the URDF or as limits of the robot's YAML");
     }
   }
   return robot;
@@ -86,13 +84,13 @@ RobotDescription MakeRobot(const RobotConfig& config, const std::string& urdf_te
   robot.meshes = meshes;
   AddUrdfTree(*model, robot);
   for (int i = 0; i < kNumBodies; ++i) {
-    if (robot.body(i).mass_kg <= 0.0) Fail(config, robot.body(i).name, "needs a positive mass");
+    if (robot.body(i).mass_kg <= 0.0) FailUrdf(config, robot.body(i).name, "needs a positive mass");
   }
   PlaceTrunkFrame(robot);
   const double bare_kg = robot.total_mass_kg();
   for (const PayloadParams& body : config.equipment) Mount(body, robot);
   const std::string problem = NormaliseJoints(robot);
-  if (!problem.empty()) Fail(config, "legs", problem);
+  if (!problem.empty()) FailUrdf(config, "legs", problem);
   CheckShapeSizes(robot);
   robot.similarity = Similarity::Of(bare_kg, LegLength(robot.legs[Leg::kFL]));
   DeriveDefaults(robot);

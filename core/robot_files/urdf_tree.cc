@@ -8,6 +8,7 @@
 #include <urdf_model/model.h>
 
 #include "core/config/node.h"
+#include "core/robot_files/urdf_error.h"
 #include "core/robot_files/urdf_pose.h"
 #include "core/robot_files/urdf_shapes.h"
 #include "core/robot_files/urdf_trunk.h"
@@ -15,10 +16,6 @@
 
 namespace scoria::core {
 namespace {
-
-[[noreturn]] void Fail(const RobotConfig& config, const std::string& key, const std::string& rule) {
-  throw ConfigError({config.urdf.string(), 0, 0}, key, rule);
-}
 
 /// Walks the URDF tree, merging fixed links into the thirteen bodies.
 class TreeWalker {
@@ -43,14 +40,15 @@ class TreeWalker {
     VisitAbove(*trunk, UrdfPose{});
     shapes_.Finish();
     if (!config_.imu_link.empty() && !imu_on_trunk_) {
-      Fail(config_, "imu_link", fmt::format("the trunk has no link \"{}\"", config_.imu_link));
+      FailUrdf(config_, "imu_link", fmt::format("the trunk has no link \"{}\"", config_.imu_link));
     }
     for (const Leg leg : kLegs) {
       if (robot_.legs[leg].foot_radius_m <= 0.0) {
-        Fail(config_, "legs",
-             fmt::format("foot link \"{}\" is missing or has no collision sphere (and the robot's "
-                         "YAML no foot_radius_m)",
-                         config_.legs.ToLegArray()[leg].foot));
+        FailUrdf(
+            config_, "legs",
+            fmt::format("foot link \"{}\" is missing or has no collision sphere (and the robot's "
+                        "YAML no foot_radius_m)",
+                        config_.legs.ToLegArray()[leg].foot));
       }
     }
   }
@@ -73,9 +71,9 @@ class TreeWalker {
         CheckOnce(of_leg + key, name, keys);
       }
       if (!model_.getLink(names.foot)) {
-        Fail(config_, of_leg + "foot",
-             fmt::format("the URDF has no link \"{}\"{}", names.foot,
-                         DidYouMean(names.foot, links)));
+        FailUrdf(config_, of_leg + "foot",
+                 fmt::format("the URDF has no link \"{}\"{}", names.foot,
+                             DidYouMean(names.foot, links)));
       }
       CheckOnce(of_leg + "foot", names.foot, keys);
     }
@@ -85,17 +83,17 @@ class TreeWalker {
                   const std::vector<std::string>& joints) const {
     const auto joint = model_.getJoint(name);
     if (!joint) {
-      Fail(config_, key,
-           fmt::format("the URDF has no joint \"{}\"{}", name, DidYouMean(name, joints)));
+      FailUrdf(config_, key,
+               fmt::format("the URDF has no joint \"{}\"{}", name, DidYouMean(name, joints)));
     }
     if (joint->type != urdf::Joint::REVOLUTE && joint->type != urdf::Joint::CONTINUOUS)
-      Fail(config_, key, fmt::format("\"{}\" must be a revolute or continuous joint", name));
+      FailUrdf(config_, key, fmt::format("\"{}\" must be a revolute or continuous joint", name));
   }
 
   void CheckOnce(const std::string& key, const std::string& name,
                  std::map<std::string, std::string>& keys) const {
     const auto [at, is_new] = keys.try_emplace(name, key);
-    if (!is_new) Fail(config_, key, fmt::format("\"{}\" is {} already", name, at->second));
+    if (!is_new) FailUrdf(config_, key, fmt::format("\"{}\" is {} already", name, at->second));
   }
 
   void Visit(const urdf::Link& link, int body, const UrdfPose& X_L) {
@@ -161,7 +159,7 @@ class TreeWalker {
     const Leg leg = LegOf(index);
     const auto j = static_cast<std::size_t>(JointOf(index));
     if (body != (j == 0 ? 0 : index - 1)) {
-      Fail(config_, joint.name, "does not follow the chain trunk, HAA, HFE, KFE");
+      FailUrdf(config_, joint.name, "does not follow the chain trunk, HAA, HFE, KFE");
     }
     const bool is_continuous = joint.type == urdf::Joint::CONTINUOUS;
     JointDescription& out = robot_.legs[leg].joints[j];
@@ -177,21 +175,22 @@ class TreeWalker {
     out.urdf_damping_Nms_per_rad = joint.dynamics ? joint.dynamics->damping : 0.0;
     out.urdf_friction_Nm = joint.dynamics ? joint.dynamics->friction : 0.0;
     if (out.lower_rad < out.upper_rad) return;
-    Fail(config_, joint.name,
-         fmt::format("lower limit {} must be below upper limit {}", out.lower_rad, out.upper_rad));
+    FailUrdf(
+        config_, joint.name,
+        fmt::format("lower limit {} must be below upper limit {}", out.lower_rad, out.upper_rad));
   }
 
   /// A joint that no leg names, as of an arm or a spinning lidar, can be held on the trunk.
   void CheckHeld(const urdf::Joint& joint, int body) const {
     if (joint.type == urdf::Joint::FLOATING || joint.type == urdf::Joint::PLANAR) {
-      Fail(config_, joint.name,
-           "floats below the trunk; only above it may a joint do so. Make it fixed");
+      FailUrdf(config_, joint.name,
+               "floats below the trunk; only above it may a joint do so. Make it fixed");
     }
     if (body != 0) {
-      Fail(config_, joint.name,
-           fmt::format(
-               "moves below {}, but no leg names it; a leg has three joints. Make it fixed",
-               robot_.legs[LegOf(body)].joints[static_cast<std::size_t>(JointOf(body))].name));
+      FailUrdf(config_, joint.name,
+               fmt::format(
+                   "moves below {}, but no leg names it; a leg has three joints. Make it fixed",
+                   robot_.legs[LegOf(body)].joints[static_cast<std::size_t>(JointOf(body))].name));
     }
   }
 
@@ -216,12 +215,12 @@ class TreeWalker {
   void AddInertia(const urdf::Link& link, int body, const UrdfPose& X_L) {
     const urdf::Inertial& in = *link.inertial;
     if (in.mass < 0.0) {
-      Fail(config_, link.name, fmt::format("mass {} must be >= 0", in.mass));
+      FailUrdf(config_, link.name, fmt::format("mass {} must be >= 0", in.mass));
     }
     Mat3 I;
     I << in.ixx, in.ixy, in.ixz, in.ixy, in.iyy, in.iyz, in.ixz, in.iyz, in.izz;
     if (in.mass > 0.0 && I.diagonal().minCoeff() < 0.0) {
-      Fail(config_, link.name, "inertia must not be negative");
+      FailUrdf(config_, link.name, "inertia must not be negative");
     }
     const UrdfPose X_C = X_L * in.origin;
     MergeInertia(BodyAt(body), {in.mass, X_C.p, X_C.R * I * X_C.R.transpose()});
@@ -229,7 +228,7 @@ class TreeWalker {
 
   void CheckFoot(const urdf::Link& link, Leg leg, int body) const {
     if (body == BodyIndex(leg, Joint::kKFE)) return;
-    Fail(config_, link.name, "is named as a foot, but is not fixed to its leg's KFE link");
+    FailUrdf(config_, link.name, "is named as a foot, but is not fixed to its leg's KFE link");
   }
 
   const RobotConfig& config_;

@@ -177,7 +177,7 @@ class SchemaWriter {
         return fmt::format("{}[<={}]", FieldType(item), kLength);
       }
     } else {
-      const std::string type = cdr_detail::ShortTypeName(T::kTypeName);
+      std::string type = cdr_detail::ShortTypeName(T::kTypeName);
       for (const auto& known : nested_) {
         if (known.first == type) return type;
       }

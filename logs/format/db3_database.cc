@@ -18,8 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kMagic("SQLite format 3\0", 16);
-constexpr std::uint64_t kHeader = 100;
+constexpr std::string_view kSqliteMagic("SQLite format 3\0", 16);
+constexpr std::uint64_t kSqliteHeader = 100;
 constexpr std::size_t kPageSizeAt = 16, kChangesAt = 24, kPagesAt = 28, kPagesValidForAt = 92;
 
 std::uint32_t BigEndian(std::span<const std::byte> bytes) {
@@ -36,8 +36,8 @@ struct PageCounts {
 /// Nothing where the header does not tell.
 std::optional<PageCounts> CountPages(const fs::path& path) {
   const RandomAccessFile file(path);
-  const Bytes header = file.Read(0, kHeader);
-  if (header.size() < kHeader) return std::nullopt;
+  const Bytes header = file.Read(0, kSqliteHeader);
+  if (header.size() < kSqliteHeader) return std::nullopt;
   const auto number = [&](std::size_t at, std::size_t size) {
     return BigEndian(std::span(header).subspan(at, size));
   };
@@ -172,8 +172,9 @@ class Opener {
 }  // namespace
 
 bool IsSqlite(std::span<const std::byte> head) {
-  return head.size() >= kMagic.size() &&
-         std::ranges::equal(head.first(kMagic.size()), std::as_bytes(std::span(kMagic)));
+  return head.size() >= kSqliteMagic.size() &&
+         std::ranges::equal(head.first(kSqliteMagic.size()),
+                            std::as_bytes(std::span(kSqliteMagic)));
 }
 
 Db3Database OpenDb3Database(const LogFile& file) { return Opener(file).Open(); }

@@ -38,14 +38,14 @@ std::vector<Extent> ExtentsOf(SignalShape shape, std::size_t size, const Pattern
 }
 
 /// A pattern in parts: texts, and placeholders between them.
-struct Part {
+struct PatternPart {
   std::string text;  // of a text, or of a placeholder the name
   bool is_placeholder = false;
   std::size_t first = 0;  // of {i+first}
 };
 
-Part ParsePlaceholder(std::string_view inside, const std::vector<Extent>& extents) {
-  Part part{std::string(inside), true, 0};
+PatternPart ParsePlaceholder(std::string_view inside, const std::vector<Extent>& extents) {
+  PatternPart part{std::string(inside), true, 0};
   if (inside.starts_with("i+")) {
     const char* end = inside.data() + inside.size();
     const auto [stop, error] = std::from_chars(inside.data() + 2, end, part.first);
@@ -62,8 +62,8 @@ Part ParsePlaceholder(std::string_view inside, const std::vector<Extent>& extent
       fmt::format("{{{}}} is no placeholder here; choices: {}", inside, fmt::join(choices, ", ")));
 }
 
-std::vector<Part> ParseParts(std::string_view pattern, const std::vector<Extent>& extents) {
-  std::vector<Part> parts;
+std::vector<PatternPart> ParseParts(std::string_view pattern, const std::vector<Extent>& extents) {
+  std::vector<PatternPart> parts;
   while (!pattern.empty()) {
     const std::size_t open = std::min(pattern.find('{'), pattern.size());
     if (open > 0) parts.push_back({std::string(pattern.substr(0, open)), false, 0});
@@ -77,8 +77,8 @@ std::vector<Part> ParseParts(std::string_view pattern, const std::vector<Extent>
   return parts;
 }
 
-bool Names(const std::vector<Part>& parts, std::string_view placeholder) {
-  return std::any_of(parts.begin(), parts.end(), [&](const Part& part) {
+bool HasPlaceholder(const std::vector<PatternPart>& parts, std::string_view placeholder) {
+  return std::any_of(parts.begin(), parts.end(), [&](const PatternPart& part) {
     return part.is_placeholder && part.text == placeholder;
   });
 }
@@ -88,14 +88,14 @@ bool Names(const std::vector<Part>& parts, std::string_view placeholder) {
 ExpandedPattern ExpandPattern(const std::string& pattern, SignalShape shape, std::size_t size,
                               const PatternNames& names) {
   const std::vector<Extent> extents = ExtentsOf(shape, size, names);
-  const std::vector<Part> parts = ParseParts(pattern, extents);
-  const bool counts = Names(parts, "i");
+  const std::vector<PatternPart> parts = ParseParts(pattern, extents);
+  const bool counts = HasPlaceholder(parts, "i");
   ExpandedPattern out;
   std::vector<std::size_t> free;  // extents without a placeholder
   std::size_t total = 1;
   for (std::size_t d = 0; d < extents.size(); ++d) {
     total *= extents[d].names.size();
-    if (!Names(parts, extents[d].placeholder)) free.push_back(d);
+    if (!HasPlaceholder(parts, extents[d].placeholder)) free.push_back(d);
   }
   if (!counts) {
     for (const std::size_t d : free) out.elements *= extents[d].names.size();
@@ -108,7 +108,7 @@ ExpandedPattern ExpandPattern(const std::string& pattern, SignalShape shape, std
     std::size_t number = 0;
     for (const std::size_t d : free) number = number * extents[d].names.size() + index[d];
     PatternPlace place;
-    for (const Part& part : parts) {
+    for (const PatternPart& part : parts) {
       if (!part.is_placeholder) place.path += part.text;
       if (part.is_placeholder && part.text == "i")
         place.path += fmt::to_string(number + part.first);

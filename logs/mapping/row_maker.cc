@@ -2,6 +2,7 @@
 #include "logs/mapping/row_maker.h"
 
 #include "core/math/so3.h"
+#include "logs/vectors.h"
 
 namespace scoria::logs {
 namespace {
@@ -22,7 +23,6 @@ std::optional<double> Scalar(const SignalSet& s, Id id) {
 std::optional<Array12> Twelve(const SignalSet& s, Id id) { return Get(s, id); }
 
 Vec3 ToVector(const SignalValues& v) { return {v[0], v[1], v[2]}; }
-Array3 ToArray(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 Mat3 ToRotation(const SignalValues& q) {
   return Quat(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
 }

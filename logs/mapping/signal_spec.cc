@@ -10,6 +10,8 @@
 namespace scoria::logs {
 namespace {
 
+using Id = SignalId;
+
 constexpr std::size_t Index(Leg leg) { return static_cast<std::size_t>(leg); }
 
 /// The axis of a text such as "-y": 0 to 2, and its sign.
@@ -61,7 +63,6 @@ class SourceVisitor {
 /// What was sensed and estimated, by the robot or beside it.
 template <class File, class Visitor>
 void VisitMeasuredSources(File& f, const Visitor& v) {
-  using Id = SignalId;
   v.Add(Id::kJointQ, f.joints.topic, f.joints.q);
   v.Add(Id::kJointQd, f.joints.topic, f.joints.qd);
   v.Add(Id::kJointTau, f.joints.topic, f.joints.tau);
@@ -103,7 +104,6 @@ void VisitMeasuredSources(File& f, const Visitor& v) {
 /// What was wanted, planned and concluded.
 template <class File, class Visitor>
 void VisitControlSources(File& f, const Visitor& v) {
-  using Id = SignalId;
   v.In(f.command, [&](auto& s) {
     v.Add(Id::kCommandVx, s.topic, s.v_x);
     v.Add(Id::kCommandVy, s.topic, s.v_y);

@@ -35,9 +35,6 @@ constexpr std::array<ReadingText, AttitudeCheck::kNumAttitudes> kTexts = {{
     {FindingKind::kAttitudeSign, "pitch has the other sign", "attitude: pitch with the other sign"},
 }};
 
-constexpr std::array kSignals = {SignalId::kImuAttitude, SignalId::kEstimateAttitude,
-                                 SignalId::kTruthAttitude};
-
 /// The ways to turn axes by quarters, but for leaving them as they are: row i has the axis that is
 /// our i.
 const std::vector<Mat3>& TurnedAxes() {
@@ -150,7 +147,7 @@ double TiltCost(const Vec3& up_W) {
 }
 
 /// A gain in cost below which two readings explain the log alike.
-constexpr double kLeastGain = 0.1;
+constexpr double kLeastAttitudeGain = 0.1;
 
 }  // namespace
 
@@ -212,7 +209,7 @@ void AttitudeCheck::AddSource(std::size_t source) {
 std::vector<Finding> AttitudeCheck::JudgeSource(std::size_t source,
                                                 const std::vector<Finding>& earlier) const {
   const auto& readings = evidence_[source];
-  const SignalId signal = kSignals[source];
+  const SignalId signal = kAttitudeSignals[source];
   if (std::max(readings[0].rate.count(), readings[0].gravity.count()) < 6 * BlockMean::kBlock ||
       std::any_of(earlier.begin(), earlier.end(), [&](const Finding& f) {
         return f.kind == FindingKind::kDegrees && f.signal == TraitsOf(signal).key;
@@ -226,7 +223,7 @@ std::vector<Finding> AttitudeCheck::JudgeSource(std::size_t source,
   const BlockMean& rate = best->BestRate();
   // The accelerometer may be wrong itself; the rate has to agree where there is one.
   const BlockMean& judge = has_rate ? rate : best->gravity;
-  if (best != readings.begin() && judge.mean() > kLeastGain && judge.t() > kSureAbove_t) {
+  if (best != readings.begin() && judge.mean() > kLeastAttitudeGain && judge.t() > kSureAbove_t) {
     Finding f = MakeFinding(Severity::kError, text.kind, signal);
     f.size = best->gain();
     f.evidence = fmt::format(
@@ -238,7 +235,7 @@ std::vector<Finding> AttitudeCheck::JudgeSource(std::size_t source,
   }
   const Evidence& swapped = readings[static_cast<std::size_t>(Reading::kRollPitchSwapped)];
   if (has_rate && std::abs(swapped.BestRate().t()) < kSureAbove_t &&
-      std::abs(swapped.gain()) < kLeastGain) {
+      std::abs(swapped.gain()) < kLeastAttitudeGain) {
     Finding f = MakeFinding(Severity::kNote, FindingKind::kNotJudged, signal);
     f.spoils.reset();
     f.evidence = "not enough motion to tell roll from pitch";

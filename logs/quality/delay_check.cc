@@ -11,9 +11,6 @@
 namespace scoria::logs {
 namespace {
 
-constexpr std::array kSignals = {SignalId::kImuAttitude, SignalId::kEstimateAttitude,
-                                 SignalId::kTruthAttitude};
-
 /// A delay has to explain so much of the difference that no more than this share of it is left.
 constexpr double kMostLeft = 0.7;
 
@@ -56,7 +53,7 @@ std::vector<Finding> DelayCheck::JudgeSource(std::size_t source) const {
   if (bank.gain[0].count() < 6 * BlockMean::kBlock) return {};
   const auto best = static_cast<std::size_t>(
       std::min_element(bank.squares.begin(), bank.squares.end()) - bank.squares.begin());
-  const SignalId signal = kSignals[source];
+  const SignalId signal = kAttitudeSignals[source];
   const double n = static_cast<double>(bank.gain[0].count());
   const double left = bank.squares[best] / n, now = bank.squares[kLags] / n;
   const auto not_judged = [&](const char* why) {

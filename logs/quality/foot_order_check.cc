@@ -10,8 +10,8 @@ namespace scoria::logs {
 namespace {
 
 /// Sums of four correlations: what the best order has to be better by.
-constexpr double kLeastMargin = 0.5, kSure_t = 3.0;
-constexpr double kLeastLoad = 0.05;  // deviation of a leg's load in a block, of the weight
+constexpr double kLeastMargin = 0.5, kSureOrder_t = 3.0;
+constexpr double kLeastSpread = 0.05;  // deviation of a leg's load in a block, of the weight
 
 }  // namespace
 
@@ -42,7 +42,7 @@ void FootOrderCheck::EndBlock() {
   double load_N = 0.0;
   for (const auto& leg : block_) load_N += leg[0].deviation_x() / kNumLegs;
   const double weight_N = subject_.robot->total_mass_kg() * subject_.gravity_mps2;
-  if (load_N > kLeastLoad * weight_N) {  // the robot walks
+  if (load_N > kLeastSpread * weight_N) {  // the robot walks
     const double as_is = Score(block_, LegOrders()[0]);
     for (std::size_t i = 0; i < gain_.size(); ++i)
       gain_[i].Add(Score(block_, LegOrders()[i]) - as_is);
@@ -66,7 +66,7 @@ std::vector<Finding> FootOrderCheck::Conclude(const std::vector<Finding>& earlie
   const Moments& gain = gain_[best];
   const double error =
       gain.deviation() / std::sqrt(static_cast<double>(std::max<std::uint64_t>(gain.count(), 1)));
-  const bool is_sure = gain.count() >= 3 && gain.mean() > kSure_t * error;
+  const bool is_sure = gain.count() >= 3 && gain.mean() > kSureOrder_t * error;
   const std::string scores_text = fmt::format(
       "correlations with the load of the legs sum to {:.2f}, {:.2f} as it is, {:.2f} of the next "
       "best",

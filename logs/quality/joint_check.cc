@@ -9,11 +9,11 @@
 namespace scoria::logs {
 namespace {
 
-constexpr double kLimitSlack_rad = 0.15;
+constexpr double kSlack_rad = 0.15;
 
 /// A gain in cost, of 20 at most, that a hypothesis has to bring; what another one may bring less
 /// without being told from it.
-constexpr double kLeastGain = 0.5, kMargin = 0.25;
+constexpr double kLeastJointGain = 0.5, kMargin = 0.25;
 
 bool IsSame(const JointHypothesis& a, const JointHypothesis& b) {
   return a.kind == b.kind && a.joint == b.joint;
@@ -36,7 +36,7 @@ void JointCheck::AddTick(const Tick& tick) {
           subject_.robot->legs[kLegs[i / kJointsPerLeg]].joints[i % kJointsPerLeg];
       const double beyond = std::max(joint.lower_rad - q[i], q[i] - joint.upper_rad);
       furthest_rad_[i] = std::max(furthest_rad_[i], beyond);
-      if (beyond > kLimitSlack_rad) ++beyond_[i];
+      if (beyond > kSlack_rad) ++beyond_[i];
     }
   }
   const std::optional<LegTick> legs = leg_ticks_->Make(tick);
@@ -85,7 +85,7 @@ std::optional<Finding> JointCheck::JudgeLeg(Leg leg) const {
     if (evidence.gain[h].mean() > evidence.gain[best].mean()) best = h;
   }
   const BlockMean& gain = evidence.gain[best];
-  if (best == 0 || gain.mean() < kLeastGain || gain.t() < kSureAbove_t) return std::nullopt;
+  if (best == 0 || gain.mean() < kLeastJointGain || gain.t() < kSureAbove_t) return std::nullopt;
   const JointHypothesis& found = hypotheses[best];
   const bool is_torque = found.kind == FindingKind::kTorqueSign;
   Finding f = MakeFinding(Severity::kError, found.kind,

@@ -11,7 +11,7 @@ namespace {
 
 /// All legs have the same faults here, so that the sizes can be narrower than for one leg.
 constexpr CostSizes kSizes = {.floor_mps = 0.05, .share = 0.1, .has_heights = false};
-constexpr double kLeastGain = 0.02;
+constexpr double kLeastOrderGain = 0.02;
 
 /// Motion of the trunk by each leg's columns, taken for each leg.
 using Motions = std::array<std::array<FootMotion, kNumLegs>, kNumLegs>;  // [leg][columns]
@@ -95,7 +95,7 @@ std::vector<Finding> LegOrderCheck::Conclude(const std::vector<Finding>& earlier
   const auto by_mean = [](const BlockMean& a, const BlockMean& b) { return a.mean() < b.mean(); };
   const auto best = std::max_element(gain_.begin(), gain_.end(), by_mean);
   const LegOrder& order = LegOrders()[static_cast<std::size_t>(best - gain_.begin())];
-  if (best != gain_.begin() && best->mean() > kLeastGain && best->t() > kSureAbove_t) {
+  if (best != gain_.begin() && best->mean() > kLeastOrderGain && best->t() > kSureAbove_t) {
     Finding f = MakeFinding(Severity::kError, FindingKind::kLegOrder, SignalId::kJointQ);
     f.size = best->mean();
     f.evidence = fmt::format(
@@ -111,7 +111,7 @@ std::vector<Finding> LegOrderCheck::Conclude(const std::vector<Finding>& earlier
     return {f};
   }
   for (std::size_t i = 1; i < gain_.size(); ++i) {
-    if (gain_[i].mean() < -kLeastGain / 10.0 && gain_[i].t() < -2.0) continue;
+    if (gain_[i].mean() < -kLeastOrderGain / 10.0 && gain_[i].t() < -2.0) continue;
     Finding f = MakeFinding(Severity::kNote, FindingKind::kNotJudged, SignalId::kJointQ);
     f.spoils.reset();
     f.evidence = fmt::format("not enough motion to tell the legs as they are from {}",

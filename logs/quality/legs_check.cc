@@ -9,7 +9,7 @@ void LegsCheck::AddTick(const Tick& tick) {
 }
 
 std::vector<Finding> LegsCheck::Conclude(const std::vector<Finding>& earlier) const {
-  const std::vector<Finding> joints = joints_.Conclude(earlier), order = order_.Conclude(earlier);
+  std::vector<Finding> joints = joints_.Conclude(earlier), order = order_.Conclude(earlier);
   const bool joints_are_wrong =
       HasError(joints, {FindingKind::kJointSign, FindingKind::kTorqueSign,
                         FindingKind::kJointOffset, FindingKind::kJointOrder});
@@ -17,9 +17,8 @@ std::vector<Finding> LegsCheck::Conclude(const std::vector<Finding>& earlier) co
       (!joints_are_wrong || order.front().size > joints_.gain()))
     return order;
   if (joints_are_wrong) return joints;
-  std::vector<Finding> findings = joints;
-  findings.insert(findings.end(), order.begin(), order.end());
-  return findings;
+  joints.insert(joints.end(), order.begin(), order.end());
+  return joints;
 }
 
 }  // namespace scoria::logs

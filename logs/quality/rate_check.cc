@@ -7,12 +7,12 @@
 
 #include <fmt/format.h>
 
+#include "core/math/angles.h"
 #include "core/math/so3.h"
 
 namespace scoria::logs {
 namespace {
 
-constexpr double kDegreesPerRad = 180.0 / std::numbers::pi;
 constexpr double kLimitSlack_rad = 0.2;
 constexpr double kLeastRate_radps = 0.1;  // deviation of a rate that tells something
 constexpr double kSureCorrelation = 0.6;
@@ -22,15 +22,9 @@ bool IsNear(double factor, double expected) {
   return factor > 0.75 * expected && factor < 1.33 * expected;
 }
 
-SignalId AttitudeOfSource(std::size_t source) {
-  constexpr std::array kSignals = {SignalId::kImuAttitude, SignalId::kEstimateAttitude,
-                                   SignalId::kTruthAttitude};
-  return kSignals[source];
-}
-
 Finding DegreesFinding(SignalId signal, const std::string& evidence) {
   Finding f = MakeFinding(Severity::kError, FindingKind::kDegrees, signal);
-  f.size = kDegreesPerRad;
+  f.size = core::kDegreesPerRad;
   f.evidence = evidence;
   f.repair = fmt::format(
       "mapping: {}: {{unit: {}}}", f.signal,
@@ -63,7 +57,8 @@ void RateCheck::AddAngles(const LegArray<Vec3>& q) {
       const double angle = q[leg][static_cast<Eigen::Index>(j)];
       ++angles_;
       if (angle < lower || angle > upper) ++beyond_as_rad_;
-      if (angle < lower * kDegreesPerRad || angle > upper * kDegreesPerRad) ++beyond_as_degrees_;
+      if (angle < lower * core::kDegreesPerRad || angle > upper * core::kDegreesPerRad)
+        ++beyond_as_degrees_;
     }
   }
 }
@@ -102,8 +97,8 @@ std::vector<Finding> RateCheck::JointFindings(const std::vector<Finding>& earlie
   for (const PairMoments& joint : joints_) {
     if (joint.deviation_x() < kLeastRate_radps && joint.deviation_y() < kLeastRate_radps) continue;
     const double factor = std::abs(joint.slope());
-    fast += IsNear(factor, kDegreesPerRad) ? 1 : 0;
-    slow += IsNear(factor, 1.0 / kDegreesPerRad) ? 1 : 0;
+    fast += IsNear(factor, core::kDegreesPerRad) ? 1 : 0;
+    slow += IsNear(factor, 1.0 / core::kDegreesPerRad) ? 1 : 0;
     alike += IsNear(factor, 1.0) ? 1 : 0;
   }
   const bool rates_in_degrees = fast > kNumJoints / 2 || (in_degrees && alike > kNumJoints / 2);
@@ -160,14 +155,14 @@ std::vector<Finding> RateCheck::TrunkFindings() const {
     if (t.count() < BlockMean::kBlock) continue;
     const double factor = t.slope();
     if (t.correlation() < kSureCorrelation) continue;
-    if (IsNear(factor, 1.0 / kDegreesPerRad)) {
+    if (IsNear(factor, 1.0 / core::kDegreesPerRad)) {
       findings.push_back(DegreesFinding(
-          AttitudeOfSource(s), fmt::format("the attitude turns {:.1f} times faster than {} says",
+          kAttitudeSignals[s], fmt::format("the attitude turns {:.1f} times faster than {} says",
                                            1.0 / factor, TraitsOf(rate).key)));
-    } else if (IsNear(factor, kDegreesPerRad) && slow++ == 0) {
+    } else if (IsNear(factor, core::kDegreesPerRad) && slow++ == 0) {
       findings.push_back(
           DegreesFinding(rate, fmt::format("the rate is {:.1f} times that of {}", factor,
-                                           TraitsOf(AttitudeOfSource(s)).key)));
+                                           TraitsOf(kAttitudeSignals[s]).key)));
     }
   }
   return findings;

@@ -62,7 +62,7 @@ void SensorCheck::AddRow(const Row& row) {
   step_s_ = rows_ == 0 ? 0.0 : row.time_s - last_s_;
   last_s_ = row.time_s;
   ++rows_;
-  for (Signal s = 0; s < kNumSignals_; ++s) {
+  for (Signal s = 0; s < kNumSignals; ++s) {
     const std::span<const double> values = ValuesOf(row, kMeasuredSignals[s]);
     if (!values.empty()) AddValues(s, values, row.time_s);
   }
@@ -181,7 +181,7 @@ Finding SensorCheck::StuckFinding(Signal signal, std::size_t i, const SpanList& 
 
 std::vector<Finding> SensorCheck::StuckSensors() const {
   std::vector<Finding> findings;
-  for (Signal s = 0; s < kNumSignals_; ++s) {
+  for (Signal s = 0; s < kNumSignals; ++s) {
     if (!CanStick(kMeasuredSignals[s])) continue;
     std::vector<Finding> of_signal;
     for (std::size_t i = 0; i < sizes_[s]; ++i) {
@@ -203,7 +203,7 @@ std::vector<Finding> SensorCheck::StuckSensors() const {
 
 std::vector<Finding> SensorCheck::Sentinels() const {
   std::vector<Finding> findings;
-  for (Signal s = 0; s < kNumSignals_; ++s) {
+  for (Signal s = 0; s < kNumSignals; ++s) {
     const SignalId id = kMeasuredSignals[s];
     for (const auto& [value, sentinel] : sentinels_[s]) {
       Finding f = MakeFinding(Severity::kError, FindingKind::kSentinel, id);
@@ -222,7 +222,7 @@ std::vector<Finding> SensorCheck::Sentinels() const {
 
 std::vector<Finding> SensorCheck::RepeatedSamples() const {
   std::vector<Finding> findings;
-  for (Signal s = 0; s < kNumSignals_; ++s) {
+  for (Signal s = 0; s < kNumSignals; ++s) {
     const SignalId id = kMeasuredSignals[s];
     const Repeats& r = repeats_[s];
     // Counts of feet and battery are coarse, so that equal ones follow each other.
@@ -243,7 +243,7 @@ std::vector<Finding> SensorCheck::RepeatedSamples() const {
 
 std::vector<Finding> SensorCheck::Saturations() const {
   std::vector<Finding> findings;
-  for (Signal s = 0; s < kNumSignals_; ++s) {
+  for (Signal s = 0; s < kNumSignals; ++s) {
     const SignalId id = kMeasuredSignals[s];
     if (!CanSaturate(id) || repeats_[s].runs == 0) continue;
     const double repeats =

@@ -64,11 +64,11 @@ class SensorCheck : public QualityCheck {
   [[nodiscard]] std::vector<Finding> Saturations() const;
   [[nodiscard]] Finding StuckFinding(Signal signal, std::size_t i, const SpanList& spans) const;
 
-  static constexpr std::size_t kNumSignals_ = kMeasuredSignals.size();
-  std::array<std::array<Course, 12>, kNumSignals_> courses_;
-  std::array<Repeats, kNumSignals_> repeats_;
-  std::array<std::map<double, Sentinel>, kNumSignals_> sentinels_;  // a few each
-  std::array<std::size_t, kNumSignals_> sizes_{};
+  static constexpr std::size_t kNumSignals = kMeasuredSignals.size();
+  std::array<std::array<Course, 12>, kNumSignals> courses_;
+  std::array<Repeats, kNumSignals> repeats_;
+  std::array<std::map<double, Sentinel>, kNumSignals> sentinels_;  // a few each
+  std::array<std::size_t, kNumSignals> sizes_{};
   double first_s_ = 0.0, last_s_ = 0.0, step_s_ = 0.0;
   std::uint64_t rows_ = 0;
 };

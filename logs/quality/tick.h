@@ -5,12 +5,16 @@
 #include <optional>
 
 #include "core/robot/description.h"
+#include "logs/mapping/signals.h"
 #include "logs/row.h"
 
 namespace scoria::logs {
 
 /// Whose account of the trunk's motion it is.
 enum class MotionSource { kImu, kEstimate, kTruth };
+/// The attitude of each.
+inline constexpr std::array kAttitudeSignals = {SignalId::kImuAttitude, SignalId::kEstimateAttitude,
+                                                SignalId::kTruthAttitude};
 inline constexpr std::size_t kNumMotionSources = 3;
 template <class T>
 using PerSource = std::array<std::optional<T>, kNumMotionSources>;

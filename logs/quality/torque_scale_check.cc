@@ -18,7 +18,7 @@ namespace {
 
 using Sums = TorqueScaleCheck::Sums;
 
-constexpr double kSpan_s = 4.0 * kTick_s;
+constexpr double kScaleSpan_s = 4.0 * kTick_s;
 /// Instants at which a foot hits the ground tell little: the trunk is not rigid then.
 constexpr double kLeastForce = 0.5, kMostForce = 1.5;  // specific, of gravity
 constexpr double kUpright = 0.8;                       // cosine of the largest tilt
@@ -82,7 +82,7 @@ std::optional<Vec6> TorqueScaleCheck::AccelerationOf(const Tick& before, const T
   const auto w = RateOf(now), w_before = RateOf(before), w_after = RateOf(after);
   if (!R_WB || !w || !w_before || !w_after) return std::nullopt;
   const Vec3 g_W = subject_.gravity_mps2 * Vec3::UnitZ();
-  const Vec3 alpha_B = (*w_after - *w_before) / kSpan_s;
+  const Vec3 alpha_B = (*w_after - *w_before) / kScaleSpan_s;
   Vec6 a;
   a.tail<3>() = *R_WB * alpha_B;
   const auto v_before = VelocityOf(before), v_after = VelocityOf(after);
@@ -90,7 +90,7 @@ std::optional<Vec6> TorqueScaleCheck::AccelerationOf(const Tick& before, const T
     const Vec3& p_BS = subject_.robot->p_BS;
     a.head<3>() = *R_WB * (*now.a_WS_B - alpha_B.cross(p_BS) - w->cross(w->cross(p_BS))) - g_W;
   } else if (v_before && v_after) {
-    a.head<3>() = (*v_after - *v_before) / kSpan_s;
+    a.head<3>() = (*v_after - *v_before) / kScaleSpan_s;
   } else {
     return std::nullopt;
   }
@@ -119,7 +119,7 @@ void TorqueScaleCheck::AddEquations(const Tick& before, const Tick& now, const T
   Vec6 y = wb.H_BB * a + wb.h_B;
   for (const Leg leg : kLegs) {
     if (std::abs(wb.J_ll[leg].determinant()) < least) return;
-    const Vec3 qdd = ((*after.qd)[leg] - (*before.qd)[leg]) / kSpan_s, qd = state.qd[leg];
+    const Vec3 qdd = ((*after.qd)[leg] - (*before.qd)[leg]) / kScaleSpan_s, qd = state.qd[leg];
     const Mat3 J_inverse = wb.J_ll[leg].transpose().inverse();
     Eigen::Matrix<double, 6, 3> on_trunk;
     on_trunk << J_inverse, core::Skew(wb.p_BF_W[leg]) * J_inverse;

@@ -10,7 +10,7 @@ namespace scoria::logs {
 namespace {
 
 constexpr std::size_t kMid = 10, kEnd = 20;
-constexpr double kSpan_s = 20.0 * kTick_s;
+constexpr double kDriftSpan_s = 20.0 * kTick_s;
 
 constexpr std::array kPositions = {SignalId::kImuAttitude, SignalId::kEstimatePosition,
                                    SignalId::kTruthPosition};  // the IMU tells none
@@ -19,7 +19,7 @@ constexpr std::array kVelocities = {SignalId::kImuAttitude, SignalId::kEstimateV
 
 double RmsOf(const Moments& squares) { return std::sqrt(squares.mean()); }
 
-bool IsNear(double factor, double expected) {
+bool IsAbout(double factor, double expected) {
   return factor > 0.7 * expected && factor < 1.4 * expected;
 }
 
@@ -38,7 +38,7 @@ void VelocityCheck::AddCourse(std::size_t source) {
   Course& c = courses_[source];
   const Vec3 step = *last_[kMid + 1].p_WB[source] - *mid.p_WB[source];
   if (step.norm() > kLargestSpeed_mps * kTick_s) c.jumps.Add({mid.time_s, mid.time_s + kTick_s});
-  const Vec3 slope = (*end.p_WB[source] - *begin.p_WB[source]) / kSpan_s;
+  const Vec3 slope = (*end.p_WB[source] - *begin.p_WB[source]) / kDriftSpan_s;
   if (!begin.v_WB[source] || !end.v_WB[source]) return;
   // Simpson's rule.
   const Vec3 v = (*begin.v_WB[source] + 4.0 * *mid.v_WB[source] + *end.v_WB[source]) / 6.0;
@@ -62,9 +62,9 @@ std::optional<Finding> VelocityCheck::UnitFinding(std::size_t source) const {
   const Course& c = courses_[source];
   const double slope = RmsOf(c.slope_squares), velocity = RmsOf(c.velocity_squares);
   constexpr double kThousand = 1e3;
-  const bool by_velocity = velocity > 1e-3 && IsNear(slope / velocity, kThousand);
+  const bool by_velocity = velocity > 1e-3 && IsAbout(slope / velocity, kThousand);
   const bool by_speed = slope > kLargestSpeed_mps && slope < kThousand * kLargestSpeed_mps &&
-                        !IsNear(slope / velocity, 1.0 / kThousand);
+                        !IsAbout(slope / velocity, 1.0 / kThousand);
   if (by_velocity || by_speed) {
     Finding f = MakeFinding(Severity::kError, FindingKind::kMillimetres, kPositions[source]);
     f.size = kThousand;
@@ -75,7 +75,7 @@ std::optional<Finding> VelocityCheck::UnitFinding(std::size_t source) const {
     f.repair = fmt::format("mapping: {}: {{unit: mm}}", f.signal);
     return f;
   }
-  if (slope > 1e-2 && IsNear(velocity / slope, kThousand)) {
+  if (slope > 1e-2 && IsAbout(velocity / slope, kThousand)) {
     Finding f = MakeFinding(Severity::kError, FindingKind::kMillimetres, kVelocities[source]);
     f.size = kThousand;
     f.evidence = fmt::format("it is {:.0f} times the derivative of the position", velocity / slope);

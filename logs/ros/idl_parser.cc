@@ -3,17 +3,16 @@
 
 #include <algorithm>
 #include <charconv>
-#include <limits>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "logs/ros/idl_declarations.h"
+#include "logs/ros/message_type.h"
 
 namespace scoria::logs {
 namespace {
 
-constexpr std::uint64_t kLongest = std::numeric_limits<std::uint32_t>::max();  // CDR's own limit
 constexpr int kDeepestAlias = 32;
 
 std::string WithSlashes(std::string name) {
@@ -58,7 +57,7 @@ class IdlResolver {
   static std::string Find(const Names& names, const std::string& name, std::string scope) {
     if (name.starts_with("::")) return names.contains(name.substr(2)) ? name.substr(2) : "";
     for (;;) {
-      const std::string candidate = scope.empty() ? name : scope + "::" + name;
+      std::string candidate = scope.empty() ? name : scope + "::" + name;
       if (names.contains(candidate)) return candidate;
       if (scope.empty()) return "";
       const std::size_t cut = scope.rfind("::");
@@ -85,7 +84,8 @@ class IdlResolver {
       const std::uint64_t length = LengthOf(dimension, type);
       field.count = field.multiplicity == Multiplicity::kOne ? length : field.count * length;
       field.multiplicity = Multiplicity::kArray;
-      if (field.count > kLongest) FailIdl(source_, type.line, type.name, "the array is too long");
+      if (field.count > kLongestArray)
+        FailIdl(source_, type.line, type.name, "the array is too long");
     }
     return field;
   }
@@ -120,8 +120,8 @@ class IdlResolver {
     const auto [end, error] =
         std::from_chars(digits.data(), digits.data() + digits.size(), value, base);
     if (error != std::errc() || end != digits.data() + digits.size() || value == 0 ||
-        value > kLongest) {
-      FailIdl(source_, type.line, text, fmt::format("is not a length (1 to {})", kLongest));
+        value > kLongestArray) {
+      FailIdl(source_, type.line, text, fmt::format("is not a length (1 to {})", kLongestArray));
     }
     return value;
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,9 @@ namespace scoria::logs {
 /// Bytes from where something of fixed layout is begun, at position p of a message's body, to its
 /// end, by p mod 8: where it begins decides on its padding.
 using FixedExtent = std::array<std::uint64_t, 8>;
+
+/// Elements of an array: CDR's own limit.
+inline constexpr std::uint64_t kLongestArray = std::numeric_limits<std::uint32_t>::max();
 
 /// Alignment of 8-byte numbers: to 8 in XCDR1, to 4 in XCDR2.
 enum class CdrVersion : std::uint8_t { kXcdr1, kXcdr2 };

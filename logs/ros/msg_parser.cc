@@ -3,20 +3,19 @@
 
 #include <algorithm>
 #include <charconv>
-#include <limits>
 #include <map>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "core/text.h"
+#include "logs/ros/message_type.h"
 #include "logs/ros/names.h"
 
 namespace scoria::logs {
 namespace {
 
 constexpr std::string_view kBlank = " \t\r\f\v";
-constexpr std::uint64_t kLongest = std::numeric_limits<std::uint32_t>::max();  // CDR's own limit
 
 /// The line up to its comment; "#" within quotes is text.
 std::string_view WithoutComment(std::string_view line) {
@@ -155,8 +154,8 @@ class MsgParser {
     std::uint64_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || value == 0 ||
-        value > kLongest) {
-      Fail(fmt::format("\"{}\" is not a length (1 to {})", core::Shown(text), kLongest));
+        value > kLongestArray) {
+      Fail(fmt::format("\"{}\" is not a length (1 to {})", core::Shown(text), kLongestArray));
     }
     return value;
   }

@@ -9,6 +9,7 @@
 #include <btBulletCollisionCommon.h>
 
 #include "core/demand.h"
+#include "sim/bullet_vectors.h"
 #include "sim/contact/ground_contact.h"
 
 static_assert(sizeof(btScalar) == 8, "scoria needs Bullet in double precision (bullet-float64)");
@@ -19,14 +20,6 @@ namespace {
 using core::kNumBodies;
 using core::RobotDescription;
 using core::Shape;
-
-btVector3 ToBullet(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-btTransform ToBullet(const Mat3& R, const Vec3& p) {
-  return btTransform(
-      btMatrix3x3(R(0, 0), R(0, 1), R(0, 2), R(1, 0), R(1, 1), R(1, 2), R(2, 0), R(2, 1), R(2, 2)),
-      ToBullet(p));
-}
-Vec3 ToVec3(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 
 /// Bullet finds contacts of convex shapes fastest and most surely within a margin around them. As
 /// of its boxes, the margin lies inside: the points move inwards, so that faces stay where they are

@@ -15,6 +15,8 @@
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 
+#include "sim/bullet_vectors.h"
+
 namespace scoria::sim {
 namespace {
 
@@ -55,7 +57,8 @@ class CeilingMap {
     return std::clamp(static_cast<int>((coordinate_m + half_m_) / block_m_), 0, blocks_ - 1);
   }
   [[nodiscard]] std::size_t Index(int row, int column) const {
-    return static_cast<std::size_t>(row * blocks_ + column);
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(blocks_) +
+           static_cast<std::size_t>(column);
   }
 
   int blocks_;
@@ -126,8 +129,6 @@ Nearest FindNearest(const terrains::Heightfield& ground, const Vec3& c, double r
   }
   return nearest;
 }
-
-btVector3 ToBullet(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 class SphereGroundAlgorithm : public btActivatingCollisionAlgorithm {
  public:

@@ -6,21 +6,21 @@
 namespace scoria::core {
 namespace {
 
-struct Shape {
-  virtual ~Shape() = default;
+struct Figure {
+  virtual ~Figure() = default;
   [[nodiscard]] virtual int Sides() const = 0;
   virtual void Grow() = 0;
-  [[nodiscard]] virtual std::unique_ptr<Shape> Clone() const = 0;
+  [[nodiscard]] virtual std::unique_ptr<Figure> Clone() const = 0;
 };
-struct Polygon final : Shape {
+struct Polygon final : Figure {
   explicit Polygon(int n) : sides(n) {}
   int Sides() const override { return sides; }
   void Grow() override { ++sides; }
-  std::unique_ptr<Shape> Clone() const override { return std::make_unique<Polygon>(*this); }
+  std::unique_ptr<Figure> Clone() const override { return std::make_unique<Polygon>(*this); }
   int sides;
 };
 struct Owner {
-  ClonePtr<Shape> shape;
+  ClonePtr<Figure> shape;
   ClonePtr<int> number;
 };
 

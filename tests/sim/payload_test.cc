@@ -17,7 +17,7 @@ namespace {
 /// A walk without a break.
 core::EventClock At(double time_s, double walked_m) { return {time_s, walked_m, time_s}; }
 
-const Vec3 kGravity(0.0, 0.0, -9.81);
+const Vec3 kGravity_W(0.0, 0.0, -9.81);
 
 SpatialInertia BareTrunk() { return test::Go2().trunk; }
 
@@ -66,7 +66,7 @@ SpatialInertia Share(double share, const SpatialInertia& whole) {
   return {share * whole.mass_kg, whole.p_OC, share * whole.I_C};
 }
 
-LegArray<Vec3> Hold(const RobotState& s, const LegArray<Vec3>& q) {
+LegArray<Vec3> HoldSoftly(const RobotState& s, const LegArray<Vec3>& q) {
   LegArray<Vec3> tau = ZeroPerLeg();
   for (const Leg leg : kLegs) tau[leg] = 200.0 * (q[leg] - s.q[leg]) - 5.0 * s.qd[leg];
   return tau;
@@ -192,7 +192,7 @@ TEST(PayloadRack, AddedThenRemovedRestoresTheTrunkBitForBit) {
   PayloadRack rack(BareTrunk(), {AddAt(1.0, Plate()), slow, shed, gone,
                                  EventAt(7.0, PayloadAction::kRemove, "kit")});
   const terrains::Heightfield ground = test::FlatGround();
-  Plant plant(test::Go2(), ground, {}, kGravity);
+  Plant plant(test::Go2(), ground, {}, kGravity_W);
   const SpatialInertia before = plant.truth().trunk;
   int changes = 0;
   for (int i = 0; i < 8000; ++i) {
@@ -396,7 +396,7 @@ TEST(PayloadLibrary, FilesHaveTheMassTheirNameSays) {
 
 TEST(Plant, StandsUnderAPlateThatIsPutOnItsBack) {
   const terrains::Heightfield ground = test::FlatGround();
-  Plant plant(test::Go2(), ground, {}, kGravity);
+  Plant plant(test::Go2(), ground, {}, kGravity_W);
   const RobotState start = test::StandingState();
   plant.Reset(start);
   PayloadEvent add = AddAt(1.0, Plate());
@@ -406,7 +406,7 @@ TEST(Plant, StandsUnderAPlateThatIsPutOnItsBack) {
   for (int i = 0; i < 4000; ++i) {
     for (const TrunkChange& change : rack.Update(At(0.001 * i, 0.0)))
       plant.SetTrunkParameters(change.trunk, change.attach_velocity);
-    plant.Step(Hold(plant.truth().state, start.q));
+    plant.Step(HoldSoftly(plant.truth().state, start.q));
     worst_J = std::max(worst_J, std::abs(plant.truth().energy.Error_J()));
   }
   const Truth& t = plant.truth();
@@ -421,7 +421,7 @@ TEST(Plant, StandsUnderAPlateThatIsPutOnItsBack) {
 
 TEST(Plant, ResetKeepsThePayload) {
   const terrains::Heightfield ground = test::FlatGround();
-  Plant plant(test::Go2(), ground, {}, kGravity);
+  Plant plant(test::Go2(), ground, {}, kGravity_W);
   const std::vector<SpatialInertia> plate = {ToInertia(Plate())};
   plant.SetTrunkParameters(AddBodies(BareTrunk(), plate), AttachVelocity::kMatched);
   plant.Reset(test::StandingState());
@@ -439,7 +439,7 @@ TEST(SlidingPayload, ComesToRestOnAStandingRobotAndIsCarried) {
   plant.Reset(start);
   double worst_J = 0.0, widest_m = 0.0;
   for (int i = 0; i < 12000; ++i) {
-    plant.Step(Hold(plant.truth().state, start.q));
+    plant.Step(HoldSoftly(plant.truth().state, start.q));
     worst_J = std::max(worst_J, std::abs(plant.truth().energy.Error_J()));
     widest_m = std::max(widest_m, plant.truth().slide_m);
   }
@@ -473,7 +473,7 @@ TEST(SlidingPayload, MomentumIsKeptInFlightAndInAnImpact) {
     return Vec6(RobotMomentum(t.trunk, t.state) + Momentum(block, t.state) + own);
   };
   const Vec6 start = momentum();
-  for (int i = 0; i < 500; ++i) plant.Step(Hold(plant.truth().state, s.q));
+  for (int i = 0; i < 500; ++i) plant.Step(HoldSoftly(plant.truth().state, s.q));
   const Vec6 flown = momentum();
   // First order in the step, as without it.
   EXPECT_LT((flown - start).head<3>().norm(), 1e-3 * start.head<3>().norm());
@@ -492,13 +492,14 @@ TEST(SlidingPayload, MomentumIsKeptInFlightAndInAnImpact) {
 // The robot flies on as one that never had it, from the state in which it lost it.
 TEST(SlidingPayload, TakenOffLeavesTheRobotItsVelocity) {
   const terrains::Heightfield ground = test::FlatGround();
-  Plant plant(test::Go2(), ground, {}, kGravity, Block()), bare(test::Go2(), ground, {}, kGravity);
+  Plant plant(test::Go2(), ground, {}, kGravity_W, Block()),
+      bare(test::Go2(), ground, {}, kGravity_W);
   RobotState s = test::StandingState();
   s.p_WB.z() = 5.0;
   s.v_WB = {0.5, 1.0, 0.2};
   s.w_WB = {0.5, -0.4, 0.8};
   plant.Reset(s);
-  for (int i = 0; i < 200; ++i) plant.Step(Hold(plant.truth().state, s.q));
+  for (int i = 0; i < 200; ++i) plant.Step(HoldSoftly(plant.truth().state, s.q));
   const Truth before = plant.truth();
   ASSERT_NE(before.slide_mps, 0.0);
   plant.RemoveSlidingPayload();
@@ -509,7 +510,7 @@ TEST(SlidingPayload, TakenOffLeavesTheRobotItsVelocity) {
   EXPECT_NEAR(plant.truth().energy.Error_J(), before.energy.Error_J(), 1e-9);
   bare.Reset(before.state);
   for (int i = 0; i < 100; ++i) {
-    for (Plant* w : {&plant, &bare}) w->Step(Hold(w->truth().state, s.q));
+    for (Plant* w : {&plant, &bare}) w->Step(HoldSoftly(w->truth().state, s.q));
   }
   EXPECT_LT((plant.truth().state.p_WB - bare.truth().state.p_WB).norm(), 1e-6);
   EXPECT_LT((plant.truth().state.w_WB - bare.truth().state.w_WB).norm(), 1e-6);

@@ -5,6 +5,8 @@
 
 namespace scoria::test {
 
+inline constexpr double kRow_s = 0.002;  // between rows of a log
+
 /// A row with every group and every optional field, all zero but what is set: for tests that make
 /// up a walk.
 [[nodiscard]] inline logs::Row WholeRow() {

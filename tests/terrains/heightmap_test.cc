@@ -15,7 +15,7 @@
 namespace scoria::terrains {
 namespace {
 
-class Heightmap : public ::testing::Test {
+class HeightmapFile : public ::testing::Test {
  protected:
   std::filesystem::path Write(const std::string& name, const std::string& text) {
     core::WriteText(folder.path() / name, text);
@@ -65,7 +65,7 @@ class Heightmap : public ::testing::Test {
   test::TemporaryFolder folder;
 };
 
-TEST_F(Heightmap, PngKeepsItsSixteenBitsAndItsNorth) {
+TEST_F(HeightmapFile, PngKeepsItsSixteenBitsAndItsNorth) {
   HeightmapParams params;
   params.file = WritePng("ramp.png", 32, 32, true);
   params.black_m = -1.0;
@@ -77,7 +77,7 @@ TEST_F(Heightmap, PngKeepsItsSixteenBitsAndItsNorth) {
   EXPECT_NEAR(heights.at(3, 0), -1.0 + 2.0 * 3031 / 65535, 1e-12);
 }
 
-TEST_F(Heightmap, AsciiGridCarriesItsOwnSpacing) {
+TEST_F(HeightmapFile, AsciiGridCarriesItsOwnSpacing) {
   HeightmapParams params;
   params.file = Write("ok.asc", Ascii(20, 20, "2.25"));
   const Grid heights = ReadHeightmap(params, 0.25).heights;
@@ -86,7 +86,7 @@ TEST_F(Heightmap, AsciiGridCarriesItsOwnSpacing) {
   EXPECT_EQ(heights.at(0, 0), 1.5);
 }
 
-TEST_F(Heightmap, BecomesTheGroundUnderSlopeAndScale) {
+TEST_F(HeightmapFile, BecomesTheGroundUnderSlopeAndScale) {
   TerrainParams params;
   params.heightmap.file = Write("ok.asc", Ascii(20, 20, "1.5"));
   params.roughness_scale = 2.0;
@@ -95,7 +95,7 @@ TEST_F(Heightmap, BecomesTheGroundUnderSlopeAndScale) {
   EXPECT_NEAR(ground.HeightAt(0.0, 0.0), 3.0, 1e-12);
 }
 
-TEST_F(Heightmap, EveryErrorNamesFileAndRule) {
+TEST_F(HeightmapFile, EveryErrorNamesFileAndRule) {
   EXPECT_EQ(ErrorOf(folder.path() / "gone.png"), "gone.png: heightmap: cannot read the file");
   EXPECT_EQ(ErrorOf(WritePng("small.png", 10, 20, true)),
             "small.png: heightmap: is 2.5 m wide; a robot needs at least 6 m");
@@ -129,7 +129,7 @@ TEST_F(Heightmap, EveryErrorNamesFileAndRule) {
             "grid (did you mean \"cellsize\"?)");
 }
 
-TEST_F(Heightmap, EveryCountErrorSaysWhatIsThere) {
+TEST_F(HeightmapFile, EveryCountErrorSaysWhatIsThere) {
   const std::string whole = Ascii(20, 20, "1");
   EXPECT_EQ(ErrorOf(Write("more.asc", whole + "1 2 3\n")),
             "more.asc:27:1: heightmap: has more than 20 x 20 heights");
@@ -149,7 +149,7 @@ TEST_F(Heightmap, EveryCountErrorSaysWhatIsThere) {
       "with blanks between");
 }
 
-TEST_F(Heightmap, AFileOfAnotherKindIsNamed) {
+TEST_F(HeightmapFile, AFileOfAnotherKindIsNamed) {
   EXPECT_EQ(ErrorOf(Write("map.tif", std::string("II*\0\x08\0\0\0", 8))),
             "map.tif: heightmap: is a TIFF image, not a 16-bit PNG or an ESRI ASCII grid (convert: "
             "gdal_translate -of AAIGrid IN OUT.asc)");
@@ -160,7 +160,7 @@ TEST_F(Heightmap, AFileOfAnotherKindIsNamed) {
   EXPECT_EQ(ErrorOf(folder.path()), folder.path().string() + ": heightmap: is a folder");
 }
 
-TEST_F(Heightmap, GapsAreFoundWhateverMarksThem) {
+TEST_F(HeightmapFile, GapsAreFoundWhateverMarksThem) {
   const std::string no_data = "cellsize 0.5\nNODATA_value -3.40282346638529e+38\n";
   for (const char* value : {"-3.4028234663852886e+38", "-3.402823e+38", "-3.40282346638529e+38"}) {
     EXPECT_EQ(ErrorOf(Write("gap.asc", Ascii(20, 20, value, no_data))),
@@ -196,7 +196,7 @@ std::string LevelBut(const std::map<std::pair<int, int>, double>& others) {
   return text;
 }
 
-TEST_F(Heightmap, SpikesPitsAndUndeclaredVoidsAreRefused) {
+TEST_F(HeightmapFile, SpikesPitsAndUndeclaredVoidsAreRefused) {
   EXPECT_EQ(ErrorOf(Write("spike.asc", LevelBut({{{5, 6}, 315.0}}))),
             "spike.asc:10:1: heightmap: row 7, value 6 is 315 m, over 5 m from all but 0 of "
             "its neighbours: a spike or a pit; remove it first");
@@ -217,7 +217,7 @@ TEST_F(Heightmap, SpikesPitsAndUndeclaredVoidsAreRefused) {
             "fill gaps first");
 }
 
-TEST_F(Heightmap, CliffsAndBlocksAreGround) {
+TEST_F(HeightmapFile, CliffsAndBlocksAreGround) {
   std::map<std::pair<int, int>, double> cliff;
   for (int r = 0; r < 20; ++r) {
     for (int c = 0; c < 10; ++c) cliff[{c, r}] = 340.0;
@@ -230,7 +230,7 @@ TEST_F(Heightmap, CliffsAndBlocksAreGround) {
   EXPECT_EQ(ErrorOf(Write("block.asc", LevelBut(block))), "no error");
 }
 
-TEST_F(Heightmap, SpikesOfCoarseCellsAreHigher) {
+TEST_F(HeightmapFile, SpikesOfCoarseCellsAreHigher) {
   const auto error = [&](double cell_m, double height_m) {
     std::string text = LevelBut({{{5, 6}, 300.0 + height_m}});
     text.replace(text.find("0.5"), 3, fmt::format("{}", cell_m));
@@ -244,7 +244,7 @@ TEST_F(Heightmap, SpikesOfCoarseCellsAreHigher) {
   }
 }
 
-TEST_F(Heightmap, HeightsInOtherUnitsThanCellsAreRefused) {
+TEST_F(HeightmapFile, HeightsInOtherUnitsThanCellsAreRefused) {
   const auto slope = [&](double step) {
     std::string text = "ncols 20\nnrows 20\ncellsize 0.5\n";
     for (int i = 0; i < 400; ++i) text += fmt::format("{} ", step * (i % 20));
@@ -256,7 +256,7 @@ TEST_F(Heightmap, HeightsInOtherUnitsThanCellsAreRefused) {
             "cells and heights both in metres?");
 }
 
-TEST_F(Heightmap, SlopesThatAreCutAreCounted) {
+TEST_F(HeightmapFile, SlopesThatAreCutAreCounted) {
   TerrainParams params;
   params.name = "quarry";
   params.heightmap.file = Write("block.asc", LevelBut({{{5, 5}, 301.0}}));

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <numbers>
 
 #include "analysis/metrics/episode_metrics.h"
 #include "analysis/metrics/families/families.h"
+#include "core/math/angles.h"
 
 namespace scoria::analysis {
 namespace {
 
 using logs::RowGroup;
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 template <double DriftSummary::*value>
 std::optional<Measured> Drift(const EpisodeMetrics& m) {
@@ -122,11 +120,11 @@ Metrics StateErrorMetrics() {
        Error<&E::velocity_rmse_mps>},
       {Show(ErrorInfo("est_roll_rmse_rad", "RMSE φ̂", "estimated roll RMSE",
                       "Root mean square of estimated minus true roll."),
-            "rad", {"deg", kDegrees, 2}),
+            "rad", {"deg", core::kDegreesPerRad, 2}),
        Error<&E::roll_rmse_rad>},
       {Show(ErrorInfo("est_pitch_rmse_rad", "RMSE θ̂", "estimated pitch RMSE",
                       "Root mean square of estimated minus true pitch."),
-            "rad", {"deg", kDegrees, 2}),
+            "rad", {"deg", core::kDegreesPerRad, 2}),
        Error<&E::pitch_rmse_rad>}};
 }
 

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <numbers>
 
 #include "analysis/metrics/episode_metrics.h"
 #include "analysis/metrics/families/families.h"
+#include "core/math/angles.h"
 
 namespace scoria::analysis {
 namespace {
 
 using logs::RowGroup;
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 template <std::optional<double> TrackingErrors::*value>
 std::optional<Measured> Error(const EpisodeMetrics& m) {
@@ -24,8 +22,8 @@ std::optional<Measured> Mean(const EpisodeMetrics& m) {
   return MeasuredIf(t.samples_s > 0.0, t.*value, t.samples_s);
 }
 
-MetricInfo ErrorInfo(std::string_view key, std::string_view symbol, std::string_view title,
-                     std::string_view definition) {
+MetricInfo TrackingErrorInfo(std::string_view key, std::string_view symbol, std::string_view title,
+                             std::string_view definition) {
   return {.key = key,
           .family = MetricFamily::kTracking,
           .symbol = symbol,
@@ -40,7 +38,7 @@ MetricInfo ErrorInfo(std::string_view key, std::string_view symbol, std::string_
 }
 
 Metric VelocityError() {
-  MetricInfo info = ErrorInfo(
+  MetricInfo info = TrackingErrorInfo(
       "velocity_rmse_mps", "RMSE v", "velocity RMSE",
       "Root mean square of the trunk's horizontal velocity in its heading minus the command, "
       "averaged over a stride first.");
@@ -51,7 +49,7 @@ Metric VelocityError() {
 }
 
 Metric HeightError() {
-  MetricInfo info = ErrorInfo(
+  MetricInfo info = TrackingErrorInfo(
       "height_rmse_m", "RMSE z", "height RMSE",
       "Root mean square of the height of the centre of mass minus the controller's reference.");
   info.unit = "m";
@@ -64,10 +62,10 @@ Metric HeightError() {
 
 MetricInfo AngleInfo(std::string_view key, std::string_view symbol, std::string_view title,
                      std::string_view definition) {
-  MetricInfo info = ErrorInfo(key, symbol, title, definition);
+  MetricInfo info = TrackingErrorInfo(key, symbol, title, definition);
   info.unit = "rad";
   info.shown_unit = "deg";
-  info.scale = kDegrees;
+  info.scale = core::kDegreesPerRad;
   return info;
 }
 

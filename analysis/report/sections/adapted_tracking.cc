@@ -16,7 +16,7 @@ namespace {
 constexpr std::array<std::string_view, 3> kShown = {"height_rmse_m", "roll_rmse_rad",
                                                     "pitch_rmse_rad"};
 
-std::optional<std::string> WhyNot(const ReportInput& input) {
+std::optional<std::string> WhyNoAdaptedTracking(const ReportInput& input) {
   if (auto reason = WhyNotValid(input, Groups({logs::RowGroup::kTrueMass}))) return reason;
   if (!AnyAdapts(input.results)) return "no arm adapted its model";
   const auto& arms = input.results.arms;
@@ -37,7 +37,7 @@ void AppendCells(const ArmDifferences& d, const MetricInfo& info, std::vector<st
       found == nullptr ? "–" : FormatDifference(found->pairs.difference, info.scale, info.digits));
 }
 
-Blocks Build(const ReportInput& input) {
+Blocks BuildAdaptedTracking(const ReportInput& input) {
   const auto all = CompareWithUnadapted(input.results, input.metrics);
   Table table{{"at", "arms", "seeds"}, {}};
   for (const ArmDifferences& d : all) {
@@ -63,7 +63,8 @@ Blocks Build(const ReportInput& input) {
 }  // namespace
 
 Section AdaptedTrackingSection() {
-  return {"adapted_tracking", "Tracking with and without adaptation", WhyNot, Build};
+  return {"adapted_tracking", "Tracking with and without adaptation", WhyNoAdaptedTracking,
+          BuildAdaptedTracking};
 }
 
 }  // namespace scoria::analysis

@@ -22,7 +22,7 @@ std::string MeanAndSpread(const MeanEstimate& e, double scale, int digits) {
 }
 
 using B = BiasLine;
-constexpr std::array<Column<B>, 8> kColumns = {{
+constexpr std::array<Column<B>, 8> kBudgetColumns = {{
     {"seeds", [](const B& l) { return std::to_string(l.bias_kg.count); }},
     {"bias [kg]", [](const B& l) { return MeanAndSpread(l.bias_kg, 1.0, 2); }},
     {"change of the bias [kg]",
@@ -35,7 +35,7 @@ constexpr std::array<Column<B>, 8> kColumns = {{
     {"COM y [mm]", [](const B& l) { return MeanAndSpread(l.com_y_m, 1e3, 1); }},
 }};
 
-std::optional<std::string> WhyNot(const ReportInput& input) {
+std::optional<std::string> WhyNoBiasBudget(const ReportInput& input) {
   const auto& axes = input.results.axes;
   const bool compares =
       std::any_of(axes.begin(), axes.end(), [](const Axis& a) { return !a.baseline.empty(); });
@@ -46,8 +46,8 @@ std::optional<std::string> WhyNot(const ReportInput& input) {
   return std::nullopt;
 }
 
-Blocks Build(const ReportInput& input) {
-  return {PointTable(input.results.axes, CalcBiasBudget(input.results), kColumns),
+Blocks BuildBiasBudget(const ReportInput& input) {
+  return {PointTable(input.results.axes, CalcBiasBudget(input.results), kBudgetColumns),
           Note{fmt::format(
               "Learned minus true, from {:.0f} s after each change of mass on, settled or not: "
               "mean ± standard deviation over seeds. Errors that a robot has from its turn-on on, "
@@ -61,6 +61,8 @@ Blocks Build(const ReportInput& input) {
 
 }  // namespace
 
-Section BiasBudgetSection() { return {"bias_budget", "Bias budget", WhyNot, Build}; }
+Section BiasBudgetSection() {
+  return {"bias_budget", "Bias budget", WhyNoBiasBudget, BuildBiasBudget};
+}
 
 }  // namespace scoria::analysis

@@ -72,12 +72,12 @@ Table StageTimes(const CampaignResults& results) {
   return table;
 }
 
-std::optional<std::string> WhyNot(const ReportInput& input) {
+std::optional<std::string> WhyNoComputingTime(const ReportInput& input) {
   if (!input.HasMetrics()) return "no episode left numbers";
   return std::nullopt;
 }
 
-Blocks Build(const ReportInput& input) {
+Blocks BuildComputingTime(const ReportInput& input) {
   Blocks blocks = {SolveTimes(input)};
   const Table stages = StageTimes(input.results);
   if (stages.rows.empty()) {
@@ -90,6 +90,8 @@ Blocks Build(const ReportInput& input) {
 
 }  // namespace
 
-Section ComputingTimeSection() { return {"computing_time", "Computing time", WhyNot, Build}; }
+Section ComputingTimeSection() {
+  return {"computing_time", "Computing time", WhyNoComputingTime, BuildComputingTime};
+}
 
 }  // namespace scoria::analysis

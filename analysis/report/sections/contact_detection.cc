@@ -137,7 +137,7 @@ void AppendRoc(const ReportInput& input, Blocks& blocks) {
       "(square), fused contact (diamond)."});
 }
 
-std::optional<std::string> WhyNot(const ReportInput& input) {
+std::optional<std::string> WhyNoContactDetection(const ReportInput& input) {
   if (!input.HasMetrics()) return "no episode left numbers";
   const bool any = std::any_of(input.cells.begin(), input.cells.end(),
                                [](const Cell& c) { return c.sum && ContactOf(c).HasDetection(); });
@@ -146,7 +146,7 @@ std::optional<std::string> WhyNot(const ReportInput& input) {
   return "no source of contact but the truth was used";
 }
 
-Blocks Build(const ReportInput& input) {
+Blocks BuildContactDetection(const ReportInput& input) {
   std::vector<SourceLine> sources;
   std::vector<Cell> cells;
   for (const Cell& c : input.cells) {
@@ -176,7 +176,7 @@ Blocks Build(const ReportInput& input) {
 }  // namespace
 
 Section ContactDetectionSection() {
-  return {"contact_detection", "Contact detection", WhyNot, Build};
+  return {"contact_detection", "Contact detection", WhyNoContactDetection, BuildContactDetection};
 }
 
 }  // namespace scoria::analysis

@@ -85,7 +85,7 @@ CaptionedFigure CostFigure(const ReportInput& input, const Cost& cost) {
                                       formulas.empty() ? "nothing" : formulas)};
 }
 
-std::optional<std::string> WhyNot(const ReportInput& input) {
+std::optional<std::string> WhyNoCostOfTransport(const ReportInput& input) {
   for (const EpisodeRecord& e : input.results.episodes) {
     for (const SpeedWindow& w : e.metrics.windows) {
       if (w.v_mps >= kSlowest_mps) return std::nullopt;
@@ -95,7 +95,7 @@ std::optional<std::string> WhyNot(const ReportInput& input) {
   return "no episode walked steadily for five seconds";
 }
 
-Blocks Build(const ReportInput& input) {
+Blocks BuildCostOfTransport(const ReportInput& input) {
   Blocks blocks;
   for (const Cost& cost : kCosts) blocks.push_back(CostFigure(input, cost));
   return blocks;
@@ -104,7 +104,7 @@ Blocks Build(const ReportInput& input) {
 }  // namespace
 
 Section CostOfTransportSection() {
-  return {"cost_of_transport", "Cost of transport", WhyNot, Build};
+  return {"cost_of_transport", "Cost of transport", WhyNoCostOfTransport, BuildCostOfTransport};
 }
 
 }  // namespace scoria::analysis

@@ -24,7 +24,7 @@ std::vector<const EpisodeRecord*> WithLogs(const CampaignResults& results) {
   return wanted;
 }
 
-std::optional<std::string> WhyNot(const ReportInput& input) {
+std::optional<std::string> WhyNoCourse(const ReportInput& input) {
   if (!WithLogs(input.results).empty()) return std::nullopt;
   if (input.results.single_run) return "the run kept no log";
   const auto& episodes = input.results.episodes;
@@ -33,7 +33,7 @@ std::optional<std::string> WhyNot(const ReportInput& input) {
   return fell ? "no episode with a fall kept a log" : "no episode fell";
 }
 
-Blocks Build(const ReportInput& input) {
+Blocks BuildCourse(const ReportInput& input) {
   constexpr int kEvery = 4;  // rows: 8 ms, finer than a line can show
   constexpr std::size_t kMostRows = 200'000;
   constexpr std::size_t kMost = 2;
@@ -58,6 +58,8 @@ Blocks Build(const ReportInput& input) {
 
 }  // namespace
 
-Section CourseSection() { return {"course", "Course of single episodes", WhyNot, Build}; }
+Section CourseSection() {
+  return {"course", "Course of single episodes", WhyNoCourse, BuildCourse};
+}
 
 }  // namespace scoria::analysis

@@ -4,9 +4,9 @@
 namespace scoria::analysis {
 namespace {
 
-std::optional<std::string> WhyNot(const ReportInput& /*input*/) { return std::nullopt; }
+std::optional<std::string> WhyNoData(const ReportInput& /*input*/) { return std::nullopt; }
 
-Blocks Build(const ReportInput& /*input*/) {
+Blocks BuildData(const ReportInput& /*input*/) {
   return {
       Note{"Definitions of every number: docs/METRICS.md. Data: metrics.csv (episodes), "
            "metrics.json (cells, comparisons); figures with their gnuplot scripts: figures/."}};
@@ -14,6 +14,6 @@ Blocks Build(const ReportInput& /*input*/) {
 
 }  // namespace
 
-Section DataSection() { return {"data", "Definitions and data", WhyNot, Build}; }
+Section DataSection() { return {"data", "Definitions and data", WhyNoData, BuildData}; }
 
 }  // namespace scoria::analysis

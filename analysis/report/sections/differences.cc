@@ -56,7 +56,7 @@ std::string BetterText(const MetricDifference& d) {
 }
 
 using D = MetricDifference;
-constexpr std::array<Column<D>, 13> kColumns = {{
+constexpr std::array<Column<D>, 13> kDifferenceColumns = {{
     {"metric", [](const D& d) { return TitleWithUnit(d.metric); }},
     {"seeds", [](const D& d) { return std::to_string(d.pairs.difference.count); }},
     {"arm", [](const D& d) { return ShownNumber(d.metric, d.pairs.mean_a); }},
@@ -74,7 +74,7 @@ constexpr std::array<Column<D>, 13> kColumns = {{
 
 /// With what the seeds could see.
 Table DifferenceTable(const ArmDifferences& d, const TestGoal& goal) {
-  Table table = TableOf(d.metrics, kColumns);
+  Table table = TableOf(d.metrics, kDifferenceColumns);
   table.header.emplace_back("difference that the seeds see");
   for (std::size_t i = 0; i < d.metrics.size(); ++i)
     table.rows[i].push_back(SeenText(d.metrics[i], goal));
@@ -82,22 +82,22 @@ Table DifferenceTable(const ArmDifferences& d, const TestGoal& goal) {
 }
 
 /// Over the whole sweep.
-std::vector<ArmDifferences> Pooled(const ReportInput& input) {
+std::vector<ArmDifferences> PooledDifferences(const ReportInput& input) {
   std::vector<ArmDifferences> pooled = input.differences;
   std::erase_if(pooled,
                 [](const ArmDifferences& d) { return !d.point.empty() || d.metrics.empty(); });
   return pooled;
 }
 
-std::optional<std::string> WhyNot(const ReportInput& input) {
+std::optional<std::string> WhyNoDifferences(const ReportInput& input) {
   if (input.results.arms.size() < 2) return "there is one arm, and none to compare it with";
-  if (Pooled(input).empty()) return "no seed was walked by two arms";
+  if (PooledDifferences(input).empty()) return "no seed was walked by two arms";
   return std::nullopt;
 }
 
-Blocks Build(const ReportInput& input) {
+Blocks BuildDifferences(const ReportInput& input) {
   Blocks blocks;
-  for (const ArmDifferences& d : Pooled(input)) {
+  for (const ArmDifferences& d : PooledDifferences(input)) {
     blocks.push_back(Heading{fmt::format("{} against {}", d.arm, d.baseline)});
     if (const std::string verdict = MetricVerdict(d); !verdict.empty())
       blocks.push_back(Paragraph{verdict});
@@ -122,7 +122,7 @@ Blocks Build(const ReportInput& input) {
 }  // namespace
 
 Section DifferencesSection() {
-  return {"differences", "Differences between the arms", WhyNot, Build};
+  return {"differences", "Differences between the arms", WhyNoDifferences, BuildDifferences};
 }
 
 }  // namespace scoria::analysis

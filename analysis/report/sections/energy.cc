@@ -11,14 +11,14 @@ namespace {
 
 bool HasLedger(const Cell& c) { return c.values.contains("ledger_motor_J"); }
 
-std::optional<std::string> WhyNot(const ReportInput& input) {
+std::optional<std::string> WhyNoEnergy(const ReportInput& input) {
   if (std::any_of(input.cells.begin(), input.cells.end(), HasLedger)) return std::nullopt;
   if (auto reason = WhyNotValid(input, Groups({logs::RowGroup::kLedger}))) return reason;
   return "no episode left numbers of the motors' work";
 }
 
 /// Where the motors' work went.
-Blocks Build(const ReportInput& input) {
+Blocks BuildEnergy(const ReportInput& input) {
   std::vector<Cell> cells = input.cells;
   std::erase_if(cells, [](const Cell& c) { return !HasLedger(c); });
   const Table lead = PointTable(input.results.axes, cells, std::array<Column<Cell>, 0>{});
@@ -30,6 +30,6 @@ Blocks Build(const ReportInput& input) {
 
 }  // namespace
 
-Section EnergySection() { return {"energy", "Energy ledger", WhyNot, Build}; }
+Section EnergySection() { return {"energy", "Energy ledger", WhyNoEnergy, BuildEnergy}; }
 
 }  // namespace scoria::analysis

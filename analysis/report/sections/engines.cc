@@ -33,10 +33,6 @@ std::string DifferenceText(const MetricDifference* d) {
   return fmt::format("{} ({} to {})", text(e.mean), text(e.interval.low), text(e.interval.high));
 }
 
-std::string CountText(const RateEstimate& r) {
-  return fmt::format("{} in {:.0f} m", r.events, r.exposure);
-}
-
 /// One sentence each of falls and of every metric, over the whole sweep.
 BulletList Sentences(const EngineAgreement& agreement, const ArmInEngines& arm) {
   BulletList list;
@@ -82,7 +78,7 @@ Table PointsTable(const EngineAgreement& agreement, const Metrics& metrics) {
   return table;
 }
 
-std::optional<std::string> WhyNot(const ReportInput& input) {
+std::optional<std::string> WhyNoEngines(const ReportInput& input) {
   for (const Axis& axis : input.results.axes) {
     if (axis.key != kEngineKey) continue;
     if (axis.values.size() < 2) return "the sweep names one physics engine";
@@ -92,7 +88,7 @@ std::optional<std::string> WhyNot(const ReportInput& input) {
   return "the physics engine was not swept";
 }
 
-Blocks Build(const ReportInput& input) {
+Blocks BuildEngines(const ReportInput& input) {
   const EngineAgreement agreement = *CompareEngines(input.results, input.metrics);
   Blocks blocks;
   BulletList verdicts;
@@ -125,6 +121,8 @@ Blocks Build(const ReportInput& input) {
 
 }  // namespace
 
-Section EnginesSection() { return {"engines", "The same in both engines?", WhyNot, Build}; }
+Section EnginesSection() {
+  return {"engines", "The same in both engines?", WhyNoEngines, BuildEngines};
+}
 
 }  // namespace scoria::analysis

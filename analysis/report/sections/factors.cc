@@ -16,8 +16,8 @@ namespace scoria::analysis {
 namespace {
 
 /// Metrics that are drawn.
-constexpr std::array<std::string_view, 4> kDrawn = {"falls", "cot_mech_abs", "velocity_rmse_mps",
-                                                    "height_rmse_m"};
+constexpr std::array<std::string_view, 4> kDrawnMetrics = {"falls", "cot_mech_abs",
+                                                           "velocity_rmse_mps", "height_rmse_m"};
 
 /// By arm.
 std::vector<std::vector<FactorEffects>> AllEffects(const ReportInput& input) {
@@ -88,16 +88,16 @@ Table IndexTable(const Design& design, const std::vector<FactorEffects>& effects
   return table;
 }
 
-std::optional<std::string> WhyNot(const ReportInput& input) {
+std::optional<std::string> WhyNoFactors(const ReportInput& input) {
   if (!input.results.design) return "the sweep is no design over factors";
   if (!input.HasMetrics()) return "no episode left numbers";
   return std::nullopt;
 }
 
-Blocks Build(const ReportInput& input) {
+Blocks BuildFactors(const ReportInput& input) {
   Blocks blocks;
   const std::vector<std::vector<FactorEffects>> all = AllEffects(input);
-  for (const std::string_view key : kDrawn) {
+  for (const std::string_view key : kDrawnMetrics) {
     if (const Metric* metric = FindMetric(input.metrics, key))
       AppendFigure(input, all, metric->info, blocks);
   }
@@ -116,6 +116,8 @@ Blocks Build(const ReportInput& input) {
 
 }  // namespace
 
-Section FactorsSection() { return {"factors", "Response over the factors", WhyNot, Build}; }
+Section FactorsSection() {
+  return {"factors", "Response over the factors", WhyNoFactors, BuildFactors};
+}
 
 }  // namespace scoria::analysis

@@ -7,7 +7,7 @@
 namespace scoria::analysis {
 namespace {
 
-std::optional<std::string> WhyNot(const ReportInput& /*input*/) { return std::nullopt; }
+std::optional<std::string> WhyNoFailures(const ReportInput& /*input*/) { return std::nullopt; }
 
 /// Nothing where nobody counted.
 std::optional<long> CountStuck(const CampaignResults& results) {
@@ -20,7 +20,7 @@ std::optional<long> CountStuck(const CampaignResults& results) {
 }
 
 /// Broken episodes first, then falls by cause, then what was met without falling.
-Blocks Build(const ReportInput& input) {
+Blocks BuildFailures(const ReportInput& input) {
   const std::vector<std::string>& arms = input.results.arms;
   Blocks blocks;
   Table broken{{"episode", "ended", "message"}, {}};
@@ -53,6 +53,6 @@ Blocks Build(const ReportInput& input) {
 
 }  // namespace
 
-Section FailuresSection() { return {"failures", "Failures", WhyNot, Build}; }
+Section FailuresSection() { return {"failures", "Failures", WhyNoFailures, BuildFailures}; }
 
 }  // namespace scoria::analysis

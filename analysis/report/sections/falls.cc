@@ -138,7 +138,7 @@ void AppendMaps(const ReportInput& input, Blocks& blocks) {
   }
 }
 
-std::optional<std::string> WhyNot(const ReportInput& input) {
+std::optional<std::string> WhyNoFalls(const ReportInput& input) {
   const auto& axes = input.results.axes;
   if (std::any_of(axes.begin(), axes.end(), IsDrawn)) return std::nullopt;
   if (!GroupFalls(input.results).empty()) return std::nullopt;
@@ -152,7 +152,7 @@ std::optional<std::string> WhyNot(const ReportInput& input) {
   return falls + ", and no number was swept that falls could be drawn against";
 }
 
-Blocks Build(const ReportInput& input) {
+Blocks BuildFalls(const ReportInput& input) {
   Blocks blocks;
   AppendRates(input, blocks);
   AppendMaps(input, blocks);
@@ -161,6 +161,6 @@ Blocks Build(const ReportInput& input) {
 
 }  // namespace
 
-Section FallsSection() { return {"falls", "Falls", WhyNot, Build}; }
+Section FallsSection() { return {"falls", "Falls", WhyNoFalls, BuildFalls}; }
 
 }  // namespace scoria::analysis

@@ -8,7 +8,7 @@
 namespace scoria::analysis {
 namespace {
 
-std::optional<std::string> WhyNot(const ReportInput& /*input*/) { return std::nullopt; }
+std::optional<std::string> WhyNoFieldLogs(const ReportInput& /*input*/) { return std::nullopt; }
 
 /// A row of each number that any log gave, a column of each log.
 Table NumbersOf(const std::vector<FieldLog>& logs, const Metrics& metrics) {
@@ -47,7 +47,7 @@ Table FallsOf(const FieldLog& log) {
   return table;
 }
 
-Blocks Build(const ReportInput& input) {
+Blocks BuildFieldLogs(const ReportInput& input) {
   const std::vector<FieldLog>& logs = input.results.logs;
   Blocks blocks = {NumbersOf(logs, input.metrics)};
   for (const FieldLog& log : logs) {
@@ -61,6 +61,6 @@ Blocks Build(const ReportInput& input) {
 
 }  // namespace
 
-Section FieldLogsSection() { return {"logs", "Logs", WhyNot, Build}; }
+Section FieldLogsSection() { return {"logs", "Logs", WhyNoFieldLogs, BuildFieldLogs}; }
 
 }  // namespace scoria::analysis

@@ -4,18 +4,17 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "analysis/report/sections/sections.h"
+#include "core/math/angles.h"
 
 namespace scoria::analysis {
 namespace {
 
 using terrains::TerrainStatistics;
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 struct Quantity {
   const char* title;
@@ -28,8 +27,9 @@ constexpr std::array<Quantity, 6> kQuantities = {
      {"at 0.25 m [m]", &TerrainStatistics::nu_25cm_m, 1.0, 3},
      {"at 1 m [m]", &TerrainStatistics::nu_1m_m, 1.0, 3},
      {"Hurst exponent", &TerrainStatistics::hurst, 1.0, 2},
-     {"mean slope at the grid spacing [deg]", &TerrainStatistics::slope_mean_rad, kDegrees, 1},
-     {"95 % of slopes below [deg]", &TerrainStatistics::slope_95_rad, kDegrees, 1}}};
+     {"mean slope at the grid spacing [deg]", &TerrainStatistics::slope_mean_rad,
+      core::kDegreesPerRad, 1},
+     {"95 % of slopes below [deg]", &TerrainStatistics::slope_95_rad, core::kDegreesPerRad, 1}}};
 
 /// Over the episodes.
 std::string RangeText(const CampaignResults& results, const Quantity& q) {
@@ -58,12 +58,12 @@ std::map<std::string, std::pair<double, int>> MaterialsOf(const CampaignResults&
   return materials;
 }
 
-std::optional<std::string> WhyNot(const ReportInput& input) {
+std::optional<std::string> WhyNoGround(const ReportInput& input) {
   if (MaterialsOf(input.results).empty()) return "no episode left numbers of its ground";
   return std::nullopt;
 }
 
-Blocks Build(const ReportInput& input) {
+Blocks BuildGround(const ReportInput& input) {
   Table table{{"quantity", "value over the episodes"}, {}};
   for (const Quantity& q : kQuantities)
     table.rows.push_back({q.title, RangeText(input.results, q)});
@@ -78,6 +78,8 @@ Blocks Build(const ReportInput& input) {
 
 }  // namespace
 
-Section GroundSection() { return {"ground", "Ground, as measured on its grids", WhyNot, Build}; }
+Section GroundSection() {
+  return {"ground", "Ground, as measured on its grids", WhyNoGround, BuildGround};
+}
 
 }  // namespace scoria::analysis

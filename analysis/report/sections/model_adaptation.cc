@@ -154,7 +154,7 @@ void AppendCourses(const ReportInput& input, Blocks& blocks) {
   }
 }
 
-std::optional<std::string> WhyNot(const ReportInput& input) {
+std::optional<std::string> WhyNoModelAdaptation(const ReportInput& input) {
   if (!input.HasMetrics()) return "no episode left numbers";
   if (auto reason = WhyNotValid(input, Groups({logs::RowGroup::kTrueMass}))) return reason;
   if (!AnyAdapts(input.results)) return "no arm adapted its model";
@@ -166,7 +166,7 @@ std::optional<std::string> WhyNot(const ReportInput& input) {
   return std::nullopt;
 }
 
-Blocks Build(const ReportInput& input) {
+Blocks BuildModelAdaptation(const ReportInput& input) {
   std::vector<IntervalLine> lines;
   const Metrics metrics = MetricsOf(input.metrics, MetricFamily::kModel);
   for (const Cell& c : input.cells) AppendIntervalLines(c, metrics, lines);
@@ -185,7 +185,8 @@ Blocks Build(const ReportInput& input) {
 }  // namespace
 
 Section ModelAdaptationSection() {
-  return {"model_adaptation", "Online model adaptation", WhyNot, Build};
+  return {"model_adaptation", "Online model adaptation", WhyNoModelAdaptation,
+          BuildModelAdaptation};
 }
 
 }  // namespace scoria::analysis

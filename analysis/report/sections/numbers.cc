@@ -15,9 +15,9 @@ constexpr std::array<Column<Cell>, 1> kRateColumn = {
 constexpr std::array<MetricFamily, 4> kFamilies = {MetricFamily::kSafety, MetricFamily::kTransport,
                                                    MetricFamily::kTracking, MetricFamily::kTiming};
 
-std::optional<std::string> WhyNot(const ReportInput& /*input*/) { return std::nullopt; }
+std::optional<std::string> WhyNoNumbers(const ReportInput& /*input*/) { return std::nullopt; }
 
-Blocks Build(const ReportInput& input) {
+Blocks BuildNumbers(const ReportInput& input) {
   Blocks blocks;
   for (const MetricFamily family : kFamilies) {
     const bool safety = family == MetricFamily::kSafety;
@@ -32,6 +32,6 @@ Blocks Build(const ReportInput& input) {
 
 }  // namespace
 
-Section NumbersSection() { return {"numbers", "Numbers", WhyNot, Build}; }
+Section NumbersSection() { return {"numbers", "Numbers", WhyNoNumbers, BuildNumbers}; }
 
 }  // namespace scoria::analysis

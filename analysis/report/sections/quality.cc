@@ -10,7 +10,7 @@
 namespace scoria::analysis {
 namespace {
 
-std::optional<std::string> WhyNot(const ReportInput& /*input*/) { return std::nullopt; }
+std::optional<std::string> WhyNoQuality(const ReportInput& /*input*/) { return std::nullopt; }
 
 std::string Where(const logs::Finding& finding) {
   constexpr std::array<const char*, kJointsPerLeg> kJoints = {"HAA", "HFE", "KFE"};
@@ -68,7 +68,7 @@ std::string Spoiled(const logs::Finding& finding, const FieldLog& log, const Met
   return titles.empty() ? "none" : titles;
 }
 
-Blocks Build(const ReportInput& input) {
+Blocks BuildQuality(const ReportInput& input) {
   Blocks blocks;
   for (const FieldLog& log : input.results.logs) {
     if (input.results.logs.size() > 1) blocks.push_back(Heading{log.id});
@@ -94,6 +94,6 @@ Blocks Build(const ReportInput& input) {
 
 }  // namespace
 
-Section QualitySection() { return {"quality", "Quality of the logs", WhyNot, Build}; }
+Section QualitySection() { return {"quality", "Quality of the logs", WhyNoQuality, BuildQuality}; }
 
 }  // namespace scoria::analysis

@@ -17,11 +17,7 @@ std::string RangeText(const Interval& i) {
   return fmt::format("{} to {}", NumberText(i.low, 2), NumberText(i.high, 2));
 }
 
-std::string CountText(const RateEstimate& r) {
-  return fmt::format("{} in {:.0f} m", r.events, r.exposure);
-}
-
-constexpr std::array<Column<C>, 13> kColumns = {{
+constexpr std::array<Column<C>, 13> kRatioColumns = {{
     {"arms", [](const C& c) { return fmt::format("{} : {}", c.a, c.b); }},
     {"falls", [](const C& c) { return CountText(c.falls_a) + ", " + CountText(c.falls_b); }},
     {"ratio", [](const C& c) { return NumberText(c.rates.judged.ratio, 2); }},
@@ -60,7 +56,7 @@ Table PowerTable(const ReportInput& input) {
   return table;
 }
 
-std::optional<std::string> WhyNot(const ReportInput& input) {
+std::optional<std::string> WhyNoRateRatios(const ReportInput& input) {
   if (input.results.arms.size() < 2) return "there is one arm, and none to compare it with";
   for (const C& c : input.comparisons) {
     if (c.falls_a.events + c.falls_b.events > 0) return std::nullopt;
@@ -68,8 +64,8 @@ std::optional<std::string> WhyNot(const ReportInput& input) {
   return "nobody fell whose falls could be compared";
 }
 
-Blocks Build(const ReportInput& input) {
-  Table table = TableOf(input.comparisons, kColumns);
+Blocks BuildRateRatios(const ReportInput& input) {
+  Table table = TableOf(input.comparisons, kRatioColumns);
   table.header.insert(table.header.begin(), "at");
   for (std::size_t i = 0; i < table.rows.size(); ++i)
     table.rows[i].insert(table.rows[i].begin(),
@@ -93,6 +89,8 @@ Blocks Build(const ReportInput& input) {
 
 }  // namespace
 
-Section RateRatiosSection() { return {"rate_ratios", "Rate ratios and power", WhyNot, Build}; }
+Section RateRatiosSection() {
+  return {"rate_ratios", "Rate ratios and power", WhyNoRateRatios, BuildRateRatios};
+}
 
 }  // namespace scoria::analysis

@@ -23,14 +23,14 @@ std::string SegmentCount(const Cell& c) {
 
 constexpr std::array<Column<Cell>, 1> kSegments = {{{"segments", SegmentCount}}};
 
-std::optional<std::string> WhyNot(const ReportInput& input) {
+std::optional<std::string> WhyNoStateEstimation(const ReportInput& input) {
   if (!input.HasMetrics()) return "no episode left numbers";
   if (std::any_of(input.cells.begin(), input.cells.end(), Estimates)) return std::nullopt;
   if (auto reason = WhyNotValid(input, Groups({logs::RowGroup::kEstimate}))) return reason;
   return "every episode walked on the true state";
 }
 
-Blocks Build(const ReportInput& input) {
+Blocks BuildStateEstimation(const ReportInput& input) {
   std::vector<Cell> cells = input.cells;
   std::erase_if(cells, [](const Cell& c) { return !Estimates(c); });
   Blocks blocks = {WithMetrics(PointTable(input.results.axes, cells, kSegments), cells,
@@ -48,6 +48,8 @@ Blocks Build(const ReportInput& input) {
 
 }  // namespace
 
-Section StateEstimationSection() { return {"state_estimation", "State estimation", WhyNot, Build}; }
+Section StateEstimationSection() {
+  return {"state_estimation", "State estimation", WhyNoStateEstimation, BuildStateEstimation};
+}
 
 }  // namespace scoria::analysis

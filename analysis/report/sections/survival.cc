@@ -46,7 +46,7 @@ std::string Verdict(const Comparison& c) {
                      r.observed_a < r.expected_a ? "farther" : "less far", c.b, test);
 }
 
-std::optional<std::string> WhyNot(const ReportInput& input) {
+std::optional<std::string> WhyNoSurvival(const ReportInput& input) {
   bool counted = false;
   for (const std::string& arm : input.results.arms) {
     const std::vector<Lifetime> lifetimes = LifetimesOf(input.results, arm, {});
@@ -58,7 +58,7 @@ std::optional<std::string> WhyNot(const ReportInput& input) {
                  : "nobody counted falls and the way to the first one";
 }
 
-Blocks Build(const ReportInput& input) {
+Blocks BuildSurvival(const ReportInput& input) {
   SurvivalPlot plot{"survival",
                     "Metres to the first fall",
                     "metres walked",
@@ -85,6 +85,8 @@ Blocks Build(const ReportInput& input) {
 
 }  // namespace
 
-Section SurvivalSection() { return {"survival", "Metres to the first fall", WhyNot, Build}; }
+Section SurvivalSection() {
+  return {"survival", "Metres to the first fall", WhyNoSurvival, BuildSurvival};
+}
 
 }  // namespace scoria::analysis

@@ -12,24 +12,24 @@ namespace scoria::analysis {
 namespace {
 
 /// Errors that are drawn.
-constexpr std::array<std::string_view, 4> kDrawn = {"velocity_rmse_mps", "height_rmse_m",
-                                                    "roll_rmse_rad", "pitch_rmse_rad"};
+constexpr std::array<std::string_view, 4> kDrawnErrors = {"velocity_rmse_mps", "height_rmse_m",
+                                                          "roll_rmse_rad", "pitch_rmse_rad"};
 
 bool HasAny(const ReportInput& input, std::string_view key) {
   return std::any_of(input.pooled.begin(), input.pooled.end(),
                      [&](const Cell& cell) { return cell.values.contains(key); });
 }
 
-std::optional<std::string> WhyNot(const ReportInput& input) {
+std::optional<std::string> WhyNoTracking(const ReportInput& input) {
   const auto drawn = [&](std::string_view key) { return HasAny(input, key); };
-  if (std::any_of(kDrawn.begin(), kDrawn.end(), drawn)) return std::nullopt;
-  if (auto reason = WhyNotValid(input, kDrawn.front())) return reason;
+  if (std::any_of(kDrawnErrors.begin(), kDrawnErrors.end(), drawn)) return std::nullopt;
+  if (auto reason = WhyNotValid(input, kDrawnErrors.front())) return reason;
   return "no episode walked steadily";
 }
 
-Blocks Build(const ReportInput& input) {
+Blocks BuildTracking(const ReportInput& input) {
   BarPlot plot{"tracking", "RMS tracking errors over steady walking", input.results.arms, {}};
-  for (const std::string_view key : kDrawn) {
+  for (const std::string_view key : kDrawnErrors) {
     const Metric* metric = FindMetric(input.metrics, key);
     if (metric == nullptr || !HasAny(input, key)) continue;
     Bars bars;
@@ -48,6 +48,6 @@ Blocks Build(const ReportInput& input) {
 
 }  // namespace
 
-Section TrackingSection() { return {"tracking", "Tracking", WhyNot, Build}; }
+Section TrackingSection() { return {"tracking", "Tracking", WhyNoTracking, BuildTracking}; }
 
 }  // namespace scoria::analysis

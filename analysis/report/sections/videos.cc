@@ -23,12 +23,12 @@ std::vector<VideoLink> FindVideos(const fs::path& folder) {
   return videos;
 }
 
-std::optional<std::string> WhyNot(const ReportInput& input) {
+std::optional<std::string> WhyNoVideos(const ReportInput& input) {
   if (FindVideos(input.folder).empty()) return "there is none in the folder";
   return std::nullopt;
 }
 
-Blocks Build(const ReportInput& input) {
+Blocks BuildVideos(const ReportInput& input) {
   Blocks blocks;
   for (VideoLink& video : FindVideos(input.folder)) blocks.push_back(std::move(video));
   return blocks;
@@ -36,6 +36,6 @@ Blocks Build(const ReportInput& input) {
 
 }  // namespace
 
-Section VideosSection() { return {"videos", "Videos", WhyNot, Build}; }
+Section VideosSection() { return {"videos", "Videos", WhyNoVideos, BuildVideos}; }
 
 }  // namespace scoria::analysis

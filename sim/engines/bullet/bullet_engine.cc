@@ -12,15 +12,13 @@
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
 #include "core/demand.h"
+#include "sim/bullet_vectors.h"
 #include "sim/engines/bullet/joint_inertia.h"
 #include "sim/engines/bullet/joint_rows.h"
 #include "sim/engines/bullet/robot_multibody.h"
 
 namespace scoria::sim {
 namespace {
-
-btVector3 ToBullet(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-Vec3 ToVec3(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 
 /// The robot with a given trunk, and what its joints add.
 struct Robot {

@@ -7,6 +7,8 @@
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 #include <Eigen/Eigenvalues>
 
+#include "sim/bullet_vectors.h"
+
 static_assert(sizeof(btScalar) == 8, "scoria needs Bullet in double precision (bullet-float64)");
 
 namespace scoria::sim {
@@ -14,8 +16,6 @@ namespace {
 
 using core::kNumBodies;
 
-btVector3 ToBullet(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-Vec3 ToVec3(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 btQuaternion ToQuaternion(const Mat3& R) {
   const Quat q = Quat(R).normalized();
   return {q.x(), q.y(), q.z(), q.w()};

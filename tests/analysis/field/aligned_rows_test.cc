@@ -4,12 +4,11 @@
 #include <gtest/gtest.h>
 
 #include "core/math/so3.h"
+#include "logs/vectors.h"
 #include "tests/analysis/field/moving_body.h"
 
 namespace scoria::analysis {
 namespace {
-
-Vec3 ToVec3(const logs::Array3& a) { return {a[0], a[1], a[2]}; }
 
 test::MovingBody Exact(double delay_s) {
   test::MovingBody body;
@@ -46,8 +45,8 @@ TEST_P(AlignedRowsOfDelay, HaveTheTruthOfTheTrunkAtTheirTime) {
     EXPECT_EQ(row.measured, rows[k].measured);
     if (!row.truth) continue;
     ++with_truth;
-    EXPECT_LT((ToVec3(row.truth->p_WB_m) - body.p_WB(row.time_s)).norm(), 1e-4);
-    const Mat3 R_WB = core::RotationFromRpy(ToVec3(row.truth->rpy_rad));
+    EXPECT_LT((logs::ToVec3(row.truth->p_WB_m) - body.p_WB(row.time_s)).norm(), 1e-4);
+    const Mat3 R_WB = core::RotationFromRpy(logs::ToVec3(row.truth->rpy_rad));
     EXPECT_LT(core::LogSo3(R_WB.transpose() * body.R_WB(row.time_s)).norm(), 1e-3);
   }
   const double beyond_s = std::abs(GetParam());  // of the log's end, or before its start

@@ -11,7 +11,7 @@ namespace scoria::analysis {
 namespace {
 
 /// Two tracks of footholds 0.25 m apart, on ground that z tells.
-FootholdRoughness Walk(int steps, const auto& z) {
+FootholdRoughness WalkOver(int steps, const auto& z) {
   FootholdRoughness found;
   for (int i = 0; i < steps; ++i) {
     for (const double y : {-0.15, 0.15}) {
@@ -24,7 +24,7 @@ FootholdRoughness Walk(int steps, const auto& z) {
 
 TEST(FootholdRoughness, LeavesOutTheSlope) {
   const FootholdRoughness found =
-      Walk(100, [](double x, double y) { return 0.3 * x - 0.1 * y + 2.0; });
+      WalkOver(100, [](double x, double y) { return 0.3 * x - 0.1 * y + 2.0; });
   EXPECT_EQ(found.count(), 200u);
   ASSERT_TRUE(found.Nu_m(0.25));
   EXPECT_LT(*found.Nu_m(0.25), 1e-3);
@@ -34,11 +34,11 @@ TEST(FootholdRoughness, LeavesOutTheSlope) {
 TEST(FootholdRoughness, IsTheRootMeanSquareDifferenceAtTheLag) {
   core::Rng rng(3, 0, core::Stream::kTerrain);
   const FootholdRoughness white =
-      Walk(2000, [&](double, double) { return 0.02 * rng.NextNormal(); });
+      WalkOver(2000, [&](double, double) { return 0.02 * rng.NextNormal(); });
   EXPECT_NEAR(*white.Nu_m(0.25), 0.02 * std::sqrt(2.0), 1e-3);
   EXPECT_NEAR(*white.Nu_m(1.0), 0.02 * std::sqrt(2.0), 1e-3);
   const FootholdRoughness wave =
-      Walk(2000, [](double x, double) { return 0.05 * std::sin(2.0 * M_PI * x / 2.0); });
+      WalkOver(2000, [](double x, double) { return 0.05 * std::sin(2.0 * M_PI * x / 2.0); });
   EXPECT_GT(*wave.Nu_m(1.0), 2.0 * *wave.Nu_m(0.25)) << "a wave of 2 m is smooth at 0.25 m";
 }
 
@@ -50,7 +50,7 @@ TEST(FootholdRoughness, DoesNotPairAcrossABreak) {
   }
   ASSERT_TRUE(found.Nu_m(0.25));
   EXPECT_LT(*found.Nu_m(0.25), 1e-3);
-  EXPECT_FALSE(Walk(5, [](double, double) { return 0.0; }).Nu_m(0.25)) << "too few to tell";
+  EXPECT_FALSE(WalkOver(5, [](double, double) { return 0.0; }).Nu_m(0.25)) << "too few to tell";
 }
 
 }  // namespace

@@ -28,7 +28,8 @@ void Inject(std::vector<Row>& rows, double delay_s, const Vec3& p_BM) {
   rows = out;
 }
 
-TruthAlignmentResult Align(const std::vector<Row>& rows, const core::RobotDescription& robot) {
+TruthAlignmentResult AlignInjected(const std::vector<Row>& rows,
+                                   const core::RobotDescription& robot) {
   TruthAlignmentEstimator estimator(&robot);
   for (const Row& row : rows) estimator.AddRow(row);
   return estimator.Estimate();
@@ -57,7 +58,7 @@ TEST_P(InjectedAlignment, IsFoundWithin5msAnd1cm) {
   const Injection& c = GetParam();
   std::vector<Row> rows = RowsOf(c.scenario, c.seed);
   Inject(rows, c.delay_s, c.p_BM);
-  const TruthAlignmentResult found = Align(rows, test::Go2());
+  const TruthAlignmentResult found = AlignInjected(rows, test::Go2());
   ASSERT_TRUE(found.alignment) << found.refusal;
   EXPECT_NEAR(found.alignment->offset.delay_s, c.delay_s, 0.005) << DescribeAlignment(found);
   ASSERT_TRUE(found.alignment->lever_arm) << DescribeAlignment(found);
@@ -80,7 +81,7 @@ TEST(SmoothWalk, TellsTheDelayBetterThanTheLeverArm) {
   std::vector<Row> rows = RowsOf("flat", 3);
   const Vec3 p_BM(0.10, 0.05, 0.12);
   Inject(rows, 0.33, p_BM);
-  const TruthAlignmentResult found = Align(rows, test::Go2());
+  const TruthAlignmentResult found = AlignInjected(rows, test::Go2());
   ASSERT_TRUE(found.alignment && found.alignment->lever_arm) << DescribeAlignment(found);
   EXPECT_NEAR(found.alignment->offset.delay_s, 0.33, 0.005);
   EXPECT_LT((found.alignment->lever_arm->p_BM - p_BM).norm(), 0.03) << DescribeAlignment(found);
@@ -99,9 +100,9 @@ std::vector<Row> Half(const std::vector<Row>& rows, bool second) {
 TEST(RecordedTruth, HalvesOfTest4AgreeOnDelayAndLeverArm) {
   if (!test::RecordedLog("")) GTEST_SKIP() << "SCORIA_REFERENCE_DATA is not set";
   const std::vector<Row> rows = test::ReadRecordedLog({"go2_vicon_orl/test_4"});
-  const TruthAlignmentResult first = Align(Half(rows, false), test::Go2()),
-                             second = Align(Half(rows, true), test::Go2()),
-                             whole = Align(rows, test::Go2());
+  const TruthAlignmentResult first = AlignInjected(Half(rows, false), test::Go2()),
+                             second = AlignInjected(Half(rows, true), test::Go2()),
+                             whole = AlignInjected(rows, test::Go2());
   ASSERT_TRUE(first.alignment) << first.refusal;
   ASSERT_TRUE(second.alignment) << second.refusal;
   EXPECT_NEAR(first.alignment->offset.delay_s, second.alignment->offset.delay_s, 0.010);

@@ -5,11 +5,10 @@
 
 #include "core/math/so3.h"
 #include "core/rng.h"
+#include "logs/vectors.h"
 
 namespace scoria::test {
 namespace {
-
-logs::Array3 ToArray(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 constexpr double kTrot_radps = 13.0;                      // 2.07 Hz
 constexpr double kSlow_radps = 0.9, kFaster_radps = 2.1;  // of turning left and right
@@ -46,17 +45,18 @@ std::vector<logs::Row> MovingBody::Rows() const {
         core::LogSo3(R_WB(t - kStep_s).transpose() * R_WB(t + kStep_s)) / (2.0 * kStep_s);
     const Vec3 a = (p_WB(t + kStep_s) - 2.0 * p_WB(t) + p_WB(t - kStep_s)) / (kStep_s * kStep_s);
     row.measured.emplace();
-    row.measured->w_WS_S_radps = ToArray(w + gyro_bias_radps + noise(gyro_noise_radps));
-    row.measured->a_WS_S_mps2 = ToArray(R.transpose() * (a + 9.81 * Vec3::UnitZ()) +
-                                        accelerometer_bias_mps2 + noise(accelerometer_noise_mps2));
+    row.measured->w_WS_S_radps = logs::ToArray(w + gyro_bias_radps + noise(gyro_noise_radps));
+    row.measured->a_WS_S_mps2 =
+        logs::ToArray(R.transpose() * (a + 9.81 * Vec3::UnitZ()) + accelerometer_bias_mps2 +
+                      noise(accelerometer_noise_mps2));
     const Mat3 R_WM = R_WB(seen) * R_BM * core::ExpSo3(noise(attitude_noise_rad));
     row.truth.emplace();
-    row.truth->p_WB_m = ToArray(p_WB(seen) + R_WB(seen) * p_BM + noise(place_noise_m));
-    row.truth->rpy_rad = ToArray(core::RpyFromRotation(R_WM));
+    row.truth->p_WB_m = logs::ToArray(p_WB(seen) + R_WB(seen) * p_BM + noise(place_noise_m));
+    row.truth->rpy_rad = logs::ToArray(core::RpyFromRotation(R_WM));
     row.estimate.emplace();
     row.estimate->p_WB_m =
-        ToArray(core::RotationZ(kYaw_rad) * (p_WB(t) + Vec3(kDrift_mps * t, 0.0, 0.0)));
-    row.estimate->rpy_rad = ToArray(core::RpyFromRotation(core::RotationZ(kYaw_rad) * R));
+        logs::ToArray(core::RotationZ(kYaw_rad) * (p_WB(t) + Vec3(kDrift_mps * t, 0.0, 0.0)));
+    row.estimate->rpy_rad = logs::ToArray(core::RpyFromRotation(core::RotationZ(kYaw_rad) * R));
     rows.push_back(row);
   }
   return rows;

@@ -14,7 +14,7 @@
 namespace scoria::analysis {
 namespace {
 
-constexpr double kRow_s = 0.002;
+using test::kRow_s;
 
 /// A trot of 0.2 s stance and 0.2 s swing on row numbers; all legs alike.
 struct Trot {

@@ -14,7 +14,7 @@
 namespace scoria::analysis {
 namespace {
 
-constexpr double kRow_s = 0.002;
+using test::kRow_s;
 constexpr double kPerMetre = M_PI / 180.0;  // rad, one degree
 
 /// A walk along +x at 0.5 m/s with a perfect estimate, to be spoiled row by row.

@@ -13,7 +13,7 @@
 namespace scoria::analysis {
 namespace {
 
-constexpr double kRow_s = 0.002;
+using test::kRow_s;
 constexpr double kRobot_kg = 15.0;
 
 /// A robot at work whose adapter knows the true mass, to be spoiled row by row. Time is the index.

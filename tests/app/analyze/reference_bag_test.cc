@@ -21,32 +21,33 @@ namespace fs = std::filesystem;
 
 const fs::path kExperiment = fs::path(SCORIA_SOURCE_DIR) / "tests/data/bags/experiment";
 
-constexpr double kRate_Hz = 50.0, kMass_kg = 15.019, kGravity_mps2 = 9.81, kSpeed_mps = 0.5;
+constexpr double kBagRate_Hz = 50.0, kMass_kg = 15.019, kGravity_mps2 = 9.81, kBagSpeed_mps = 0.5;
 // Rows of walking: up to the one before the roll has exceeded 60 degrees for 0.03 s, from 7.34 s on
 // at samples of 0.02 s, and from 9 s on.
-constexpr int kLastBefore = 368, kFirstAfter = 450, kLast = 599;
-constexpr double kTorque_Nm = 5.0;
+constexpr int kLastBefore = 368, kFirstAfter = 450, kLastRow = 599;
+constexpr double kBagTorque_Nm = 5.0;
 
 double JointSpeed(int row) {
   constexpr double kAmplitude_rad = 0.05, kFrequency = 2.0 * std::numbers::pi * 2.0;
-  return kAmplitude_rad * kFrequency * std::cos(kFrequency * row / kRate_Hz);
+  return kAmplitude_rad * kFrequency * std::cos(kFrequency * row / kBagRate_Hz);
 }
 
 /// Of a power, over the walking: powers of a row count for the step that ends with it.
 template <class Power>
 double Energy(Power&& power_W) {
   double energy_J = 0.0;
-  for (int row = 1; row <= kLastBefore; ++row) energy_J += power_W(row) / kRate_Hz;
-  for (int row = kFirstAfter + 1; row <= kLast; ++row) energy_J += power_W(row) / kRate_Hz;
+  for (int row = 1; row <= kLastBefore; ++row) energy_J += power_W(row) / kBagRate_Hz;
+  for (int row = kFirstAfter + 1; row <= kLastRow; ++row) energy_J += power_W(row) / kBagRate_Hz;
   return energy_J;
 }
 
-double Metres() {
-  const double before_m = kSpeed_mps * 7.0, after_m = kSpeed_mps * (kLast - kFirstAfter) / kRate_Hz;
+double BagMetres() {
+  const double before_m = kBagSpeed_mps * 7.0,
+               after_m = kBagSpeed_mps * (kLastRow - kFirstAfter) / kBagRate_Hz;
   return before_m + after_m;
 }
 
-double Work() { return kMass_kg * kGravity_mps2 * Metres(); }  // ∫ m g ds
+double BagWork() { return kMass_kg * kGravity_mps2 * BagMetres(); }  // ∫ m g ds
 
 class ReferenceBag : public testing::Test {
  protected:
@@ -80,9 +81,9 @@ TEST_F(ReferenceBag, FallIsToldByTheTiltAndNotByThePlacement) {
 }
 
 TEST_F(ReferenceBag, MetresAndTimesAreThoseOfTheScript) {
-  EXPECT_NEAR(Number("distance_m"), Metres(), 1e-9);
-  EXPECT_NEAR(Number("falls_per_m"), 1.0 / Metres(), 1e-9);
-  EXPECT_NEAR(Number("walking_s"), (kLastBefore + kLast - kFirstAfter) / kRate_Hz, 1e-6);
+  EXPECT_NEAR(Number("distance_m"), BagMetres(), 1e-9);
+  EXPECT_NEAR(Number("falls_per_m"), 1.0 / BagMetres(), 1e-9);
+  EXPECT_NEAR(Number("walking_s"), (kLastBefore + kLastRow - kFirstAfter) / kBagRate_Hz, 1e-6);
   for (const char* leg : {"fl", "fr", "hl", "hr"}) {
     EXPECT_NEAR(Number(std::string("stride_") + leg + "_s"), 0.4, 1e-6) << leg;
     EXPECT_NEAR(Number(std::string("stance_") + leg + "_s"), 0.24, 1e-6) << leg;
@@ -93,23 +94,23 @@ TEST_F(ReferenceBag, MetresAndTimesAreThoseOfTheScript) {
 }
 
 TEST_F(ReferenceBag, CostsOfTransportAreThoseOfTheirDefinitions) {
-  const auto joints_W = [](int row) { return 12.0 * kTorque_Nm * std::abs(JointSpeed(row)); };
-  EXPECT_NEAR(Number("cot_mech_abs"), Energy(joints_W) / Work(), 1e-9);
+  const auto joints_W = [](int row) { return 12.0 * kBagTorque_Nm * std::abs(JointSpeed(row)); };
+  EXPECT_NEAR(Number("cot_mech_abs"), Energy(joints_W) / BagWork(), 1e-9);
   const auto positive_W = [](int row) {
-    return 12.0 * kTorque_Nm * std::max(JointSpeed(row), 0.0);
+    return 12.0 * kBagTorque_Nm * std::max(JointSpeed(row), 0.0);
   };
-  EXPECT_NEAR(Number("cot_mech_pos"), Energy(positive_W) / Work(), 1e-9);
+  EXPECT_NEAR(Number("cot_mech_pos"), Energy(positive_W) / BagWork(), 1e-9);
   const auto electrical_W = [](int row) {  // robots/go2/go2.yaml: idle 50 W, losses 0.6, 0.6, 0.163
     double power_W = 50.0;
     for (const double loss : {0.6, 0.6, 0.163}) {
-      const double joint_W = kTorque_Nm * JointSpeed(row) + loss * kTorque_Nm * kTorque_Nm;
+      const double joint_W = kBagTorque_Nm * JointSpeed(row) + loss * kBagTorque_Nm * kBagTorque_Nm;
       power_W += 4.0 * std::max(0.0, joint_W);
     }
     return power_W;
   };
-  EXPECT_NEAR(Number("cot_electrical"), Energy(electrical_W) / Work(), 1e-9);
+  EXPECT_NEAR(Number("cot_electrical"), Energy(electrical_W) / BagWork(), 1e-9);
   const auto battery_W = [](int) { return 28.0 * 4.0; };
-  EXPECT_NEAR(Number("cot_battery"), Energy(battery_W) / Work(), 1e-6);
+  EXPECT_NEAR(Number("cot_battery"), Energy(battery_W) / BagWork(), 1e-6);
   EXPECT_EQ(analysis_.log.metrics.substitutes.at(logs::RowGroup::kEnergy),
             "measured torques with the measured joint speeds (speeds come 0.0 ms after the angles, "
             "torques by how much after their commands is not known); battery: voltage times "
@@ -121,10 +122,11 @@ TEST_F(ReferenceBag, CostsOfTransportAreThoseOfTheirDefinitions) {
 TEST_F(ReferenceBag, CostOfTheReferencesScriptIsTheMeanOfSamples) {
   double sum = 0.0;
   int rows = 0;
-  for (int row = 0; row <= kLast; ++row) {
+  for (int row = 0; row <= kLastRow; ++row) {
     const bool moves = row < 350 || row >= kFirstAfter;
     if (!moves) continue;
-    sum += 12.0 * kTorque_Nm * std::abs(JointSpeed(row)) / (kMass_kg * kGravity_mps2 * kSpeed_mps);
+    sum += 12.0 * kBagTorque_Nm * std::abs(JointSpeed(row)) /
+           (kMass_kg * kGravity_mps2 * kBagSpeed_mps);
     ++rows;
   }
   EXPECT_NEAR(Number("cot_samples"), sum / rows, 1e-9);
@@ -134,7 +136,7 @@ TEST_F(ReferenceBag, IsPooledBySequencerAndCommandedSpeed) {
   ASSERT_EQ(analysis_.parts.size(), 1U);
   EXPECT_EQ(analysis_.parts[0].sequencer, "adaptive");
   EXPECT_DOUBLE_EQ(analysis_.parts[0].command_mps, 0.5);
-  EXPECT_NEAR(analysis_.parts[0].metrics.distance_m, Metres(), 1e-9);
+  EXPECT_NEAR(analysis_.parts[0].metrics.distance_m, BagMetres(), 1e-9);
   EXPECT_EQ(analysis_.parts[0].metrics.outcome->falls, 1);
 }
 
@@ -144,10 +146,10 @@ TEST_F(ReferenceBag, FilesHoldTheNumbers) {
   EXPECT_TRUE(fs::exists(page));
   const auto json = nlohmann::json::parse(core::ReadText(folder.path() / "out/analysis.json"));
   EXPECT_NEAR(json.at("logs").at(0).at("metrics").at("scalars").at("distance_m").get<double>(),
-              Metres(), 1e-9);
+              BagMetres(), 1e-9);
   const auto& pooled = json.at("pooled").at(0);
   EXPECT_EQ(pooled.at("sequencer"), "adaptive");
-  EXPECT_NEAR(pooled.at("scalars").at("distance_m").get<double>(), 2.0 * Metres(), 1e-9);
+  EXPECT_NEAR(pooled.at("scalars").at("distance_m").get<double>(), 2.0 * BagMetres(), 1e-9);
   EXPECT_EQ(pooled.at("scalars").at("falls"), 2.0);
   EXPECT_NEAR(pooled.at("scalars").at("cot_mech_abs").get<double>(), Number("cot_mech_abs"), 1e-9);
   EXPECT_NE(core::ReadText(folder.path() / "out/report/report.txt").find("Quality of the logs"),

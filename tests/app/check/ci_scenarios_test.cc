@@ -44,7 +44,7 @@ void AddController(const controller::ControllerParams& params, Coverage& seen) {
     seen.Add("formulation", std::string(core::EnumName(tsid->formulation)));
 }
 
-void AddScenario(const Scenario& s, Coverage& seen) {
+void AddCiScenario(const Scenario& s, Coverage& seen) {
   seen.Add("terrain", s.terrain.name);
   seen.Add("robot", s.robot.name);
   AddController(s.controller, seen);
@@ -85,7 +85,7 @@ TEST(CiScenarios, CoverEveryChoice) {
   Coverage seen;
   for (const CheckTest& test : FindTests({{test::SourcePath("scenarios/ci")}, {}, {}}).tests) {
     ASSERT_FALSE(test.campaign) << test.name;
-    AddScenario(test.jobs.front().scenario, seen);
+    AddCiScenario(test.jobs.front().scenario, seen);
   }
   ExpectFiles(seen, "terrain", "terrains");
   ExpectFiles(seen, "robot", "robots");

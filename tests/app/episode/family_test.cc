@@ -17,21 +17,23 @@
 namespace scoria::app {
 namespace {
 
-struct Case {
+struct Pairing {
   test::FamilyMember member;
   const char* gait;
-  friend void PrintTo(const Case& c, std::ostream* out) { *out << c.member.name << " " << c.gait; }
+  friend void PrintTo(const Pairing& c, std::ostream* out) {
+    *out << c.member.name << " " << c.gait;
+  }
 };
 
-std::vector<Case> Cases() {
-  std::vector<Case> cases;
+std::vector<Pairing> Pairings() {
+  std::vector<Pairing> cases;
   for (const test::FamilyMember& member : test::RobotFamily()) {
     for (const char* gait : {"ags", "sgs"}) cases.push_back({member, gait});
   }
   return cases;
 }
 
-class Family : public ::testing::TestWithParam<Case> {};
+class Family : public ::testing::TestWithParam<Pairing> {};
 
 TEST_P(Family, WalksByItsFilesAlone) {
   const auto& [member, gait] = GetParam();
@@ -55,7 +57,7 @@ TEST_P(Family, WalksByItsFilesAlone) {
   EXPECT_LT(o.metrics.estimation.nees_ratio, 2.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, Family, ::testing::ValuesIn(Cases()), [](const auto& test) {
+INSTANTIATE_TEST_SUITE_P(Every, Family, ::testing::ValuesIn(Pairings()), [](const auto& test) {
   return test.param.member.name + "_" + test.param.gait;
 });
 

@@ -17,7 +17,7 @@
 namespace scoria::app {
 namespace {
 
-struct Outcome {
+struct Engagements {
   EpisodeEnd end = EpisodeEnd::kTimedOut;
   int falls = 0;
   std::vector<std::string> events;  // of the supervisor
@@ -27,13 +27,13 @@ struct Outcome {
   }
 };
 
-Outcome Walk(const std::string& monitor, bool enabled) {
+Engagements Walk(const std::string& monitor, bool enabled) {
   const Scenario scenario = test::LoadScenario(
       "supervisor/" + monitor, {fmt::format("controller.supervisor.enabled={}", enabled)});
   const core::RobotDescription robot = core::LoadRobot(scenario.robot);
   const terrains::Heightfield ground =
       terrains::GenerateTerrain(scenario.terrain, scenario.seed, 0);
-  Outcome out;
+  Engagements out;
   FunctionObserver observer;
   observer.on_event = [&](const EpisodeEvent& event) {
     if (event.kind == "supervisor") out.events.push_back(event.detail);
@@ -48,7 +48,7 @@ class SupervisorScenario : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(SupervisorScenario, FallsBackWithItsReasonAndTheRobotWalksOn) {
   const std::string monitor = GetParam();
-  const Outcome on = Walk(monitor, true);
+  const Engagements on = Walk(monitor, true);
   EXPECT_EQ(on.end, EpisodeEnd::kCompleted);
   // Ground on which feet stumble all the time lets the robot fall too, now and then.
   if (monitor != "footing") {

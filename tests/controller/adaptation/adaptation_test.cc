@@ -20,14 +20,15 @@
 #include "core/rng.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/go1_log.h"
+#include "tests/support/motion.h"
 #include "tests/support/robots.h"
 
 namespace scoria::controller {
 namespace {
 
-constexpr double kGravity_mps2 = 9.81, kStep_s = 1e-3;
-
-int Ticks(double time_s) { return static_cast<int>(std::lround(time_s / kStep_s)); }
+using test::kGravity_mps2;
+using test::kStep_s;
+using test::Ticks;
 
 // --- The recursions against their closed forms --------------------------------------------------
 

@@ -193,16 +193,17 @@ TEST(Inekf, MeanAndTransitionEqualNumericalIntegration) {
   for (const double rate : {0.0, 1e-6, 1e-3, 0.1, 1.0, 10.0, 40.0}) {
     const InekfState x = SomeState(rng, kAll);
     const Vec3 a_S = Random(rng, 15.0), w_S = rate * Random(rng, 1.0).normalized();
-    constexpr double kStep_s = 0.05;
+    constexpr double kPeriod_s = 0.05;
     constexpr double kTolerance = 1e-10;  // of Runge-Kutta, which turns by 5 mrad a step
     InekfState expected = x;
     InekfCovariance expected_phi = InekfCovariance::Identity();
-    Integrate(expected, expected_phi, a_S, w_S, kStep_s);
-    const InekfTransition t = CalcExactTransition(x, kGravity_W, a_S, w_S, kStep_s);
+    Integrate(expected, expected_phi, a_S, w_S, kPeriod_s);
+    const InekfTransition t = CalcExactTransition(x, kGravity_W, a_S, w_S, kPeriod_s);
     EXPECT_LT((Dense(t) - expected_phi).cwiseAbs().maxCoeff(), kTolerance) << rate;
     Inekf filter({});
     filter.Set(x, InekfCovariance::Zero());
-    ASSERT_EQ(filter.Predict(a_S + x.accel_bias_S, w_S + x.gyro_bias_S, kStep_s), InekfStatus::kOk);
+    ASSERT_EQ(filter.Predict(a_S + x.accel_bias_S, w_S + x.gyro_bias_S, kPeriod_s),
+              InekfStatus::kOk);
     EXPECT_LT((filter.state().R_WS - expected.R_WS).norm(), kTolerance) << rate;
     EXPECT_LT((filter.state().v_WS - expected.v_WS).norm(), kTolerance) << rate;
     EXPECT_LT((filter.state().p_WS - expected.p_WS).norm(), kTolerance) << rate;
@@ -230,7 +231,7 @@ TEST(Inekf, BlocksOfThePredictionEqualDenseAlgebra) {
     const InekfState x = SomeState(rng, in_state);
     const InekfCovariance P = SomeCovariance(rng, in_state);
     const Vec3 a_S = Random(rng, 15.0), w_S = Random(rng, 5.0);
-    constexpr double kStep_s = 0.01;
+    constexpr double kPeriod_s = 0.01;
     InekfCovariance Q = InekfCovariance::Zero();
     const InekfNoise noise = SomeNoise();
     Q.block<3, 3>(Index::kRotation, Index::kRotation) = noise.gyro;
@@ -243,13 +244,13 @@ TEST(Inekf, BlocksOfThePredictionEqualDenseAlgebra) {
       if (!in_state[leg]) active.middleCols<3>(Index::Foot(leg)).setZero();
     }
     const InekfCovariance phi = Dense(
-        CalcExactTransition(x, kGravity_W, a_S - x.accel_bias_S, w_S - x.gyro_bias_S, kStep_s));
+        CalcExactTransition(x, kGravity_W, a_S - x.accel_bias_S, w_S - x.gyro_bias_S, kPeriod_s));
     const InekfCovariance ad = active * Adjoint(x);
     const InekfCovariance expected =
-        active * phi * (P + ad * Q * ad.transpose() * kStep_s) * phi.transpose() * active;
+        active * phi * (P + ad * Q * ad.transpose() * kPeriod_s) * phi.transpose() * active;
     Inekf filter({.noise = noise});
     filter.Set(x, P);
-    ASSERT_EQ(filter.Predict(a_S, w_S, kStep_s), InekfStatus::kOk);
+    ASSERT_EQ(filter.Predict(a_S, w_S, kPeriod_s), InekfStatus::kOk);
     EXPECT_LT((filter.covariance() - expected).cwiseAbs().maxCoeff(), 1e-15);
   }
 }

@@ -7,14 +7,14 @@
 
 #include "controller/estimation/foot_sensor.h"
 #include "core/rng.h"
+#include "tests/support/motion.h"
 
 namespace scoria::controller {
 namespace {
 
-constexpr double kStep_s = 1e-3;
+using test::kStep_s;
+using test::Ticks;
 constexpr double kStance_s = 0.6, kSwing_s = 0.2;
-
-int Ticks(double seconds) { return static_cast<int>(std::lround(seconds / kStep_s)); }
 
 /// What becomes of a sensor: counts of gain · (share · force + offset).
 struct Fault {
@@ -23,7 +23,7 @@ struct Fault {
     *out << f.offset_N << " N, " << f.share;
   }
 };
-constexpr Fault kNone, kPacked{60.0, 0.5};
+constexpr Fault kNoFoot, kPacked{60.0, 0.5};
 
 /// One foot that walks: 42 N in stance, 76 N while the other diagonal swings.
 class Foot {
@@ -140,7 +140,7 @@ TEST(SensorHealth, TheObserversOwnErrorsAreTolerated) {
   ASSERT_TRUE(foot.Run(0.1));
   foot.fault = {500.0, 1.0};  // an impact that the observer has not seen yet
   EXPECT_TRUE(foot.Run(0.006));
-  foot.fault = kNone;
+  foot.fault = kNoFoot;
   EXPECT_TRUE(foot.Run(10.0));
 }
 
@@ -177,7 +177,7 @@ TEST(SensorHealth, ComesBackOnceTheFaultHasEndedAndNotBefore) {
   foot.fault = kPacked;
   ASSERT_LT(foot.TimeUntil(false, 5.0), 0.5);
   ASSERT_GE(foot.TimeUntil(true, 30.0), 30.0 - kStep_s);
-  foot.fault = kNone;
+  foot.fault = kNoFoot;
   const double back_s = foot.TimeUntil(true, 30.0);
   EXPECT_GE(back_s, params.recover_s - kStep_s);
   EXPECT_LT(back_s, params.recover_s + 2.0 * (kStance_s + kSwing_s));

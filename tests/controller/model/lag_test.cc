@@ -6,12 +6,14 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/motion.h"
+
 namespace scoria::controller {
 namespace {
 
 using Scalar = LowPassChain<1>::Vector;
 
-constexpr double kStep_s = 1e-3;
+using test::kStep_s;
 
 Scalar Of(double x) { return Scalar::Constant(x); }
 

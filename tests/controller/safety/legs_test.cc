@@ -23,7 +23,7 @@ LegMode Feed(LegStateMachine& machine, const ContactPlan& plan, bool touching) {
   return machine.Update(plan, contact, 0.0, 0.002, counters).mode[Leg::kFL];
 }
 
-struct Transition {
+struct LegTransition {
   const char* name;
   AirborneFoot late;
   bool early_enabled, planned_stance, touching;
@@ -33,7 +33,7 @@ struct Transition {
 
 // From swing.
 TEST(LegStateMachine, LeavesSwingByTheTable) {
-  const Transition table[] = {
+  const LegTransition table[] = {
       {"still swinging", AirborneFoot::kStance, true, false, false, 0.1, LegMode::kSwing},
       {"touch in the first half is a stumble, not stance", AirborneFoot::kStance, true, false, true,
        0.15, LegMode::kSwing},
@@ -47,7 +47,7 @@ TEST(LegStateMachine, LeavesSwingByTheTable) {
       {"due, in the air, lowered", AirborneFoot::kLower, true, true, false, 0.0,
        LegMode::kLowering},
   };
-  for (const Transition& t : table) {
+  for (const LegTransition& t : table) {
     LegStateParams params;
     params.late_contact = t.late;
     params.early_contact = t.early_enabled;

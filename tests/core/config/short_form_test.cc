@@ -35,7 +35,7 @@ struct Places {
 
 Places Read(const std::string& yaml) { return ReadConfig<Places>(ParseConfig(yaml, "a.yaml")); }
 
-std::string ErrorOf(const std::string& yaml) {
+std::string ShortFormErrorOf(const std::string& yaml) {
   try {
     (void)Read(yaml);
   } catch (const ConfigError& e) {
@@ -57,11 +57,11 @@ TEST(ShortForm, WhatIsWrittenReadsBack) {
 }
 
 TEST(ShortForm, ErrorsNameTheKeyWithinTheMap) {
-  EXPECT_EQ(ErrorOf("places: {x: {scale: -1}}\n"),
+  EXPECT_EQ(ShortFormErrorOf("places: {x: {scale: -1}}\n"),
             "a.yaml:1:21: places.x.scale: -1 is outside [0, .inf]");
-  EXPECT_EQ(ErrorOf("places: {x: {feld: p}}\n"),
+  EXPECT_EQ(ShortFormErrorOf("places: {x: {feld: p}}\n"),
             "a.yaml:1:14: places.x.feld: unknown key (did you mean \"field\"?)");
-  EXPECT_EQ(ErrorOf("places: [p]\n").substr(0, 20), "a.yaml:1:9: places: ");
+  EXPECT_EQ(ShortFormErrorOf("places: [p]\n").substr(0, 20), "a.yaml:1:9: places: ");
 }
 
 TEST(ShortForm, IsDescribed) {

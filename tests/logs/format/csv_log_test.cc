@@ -31,7 +31,7 @@ std::string TextOf(const LogMessage& m) {
 }
 
 /// "channel time: line" of every message.
-std::vector<std::string> Lines(LogSource& log, const LogFilter& filter = {}) {
+std::vector<std::string> LinesOf(LogSource& log, const LogFilter& filter = {}) {
   std::vector<std::string> lines;
   log.ForEach(filter, [&](const LogMessage& m) {
     lines.push_back(m.channel.topic + " " + std::to_string(m.log_time_ns) + ": " + TextOf(m));
@@ -39,9 +39,9 @@ std::vector<std::string> Lines(LogSource& log, const LogFilter& filter = {}) {
   return lines;
 }
 
-std::vector<std::string> Lines(const std::string& text) {
+std::vector<std::string> LinesOf(const std::string& text) {
   const Files files;
-  return Lines(*OpenLog(files.Write("a.csv", text)));
+  return LinesOf(*OpenLog(files.Write("a.csv", text)));
 }
 
 using Texts = std::vector<std::string>;
@@ -58,24 +58,24 @@ TEST(CsvLog, IsAChannelWhoseMessagesAreLines) {
   EXPECT_EQ(channel.schema, (LogSchema{"csv", "t,q"}));
   EXPECT_EQ(contents.span, (LogSpan{500'000'000, 1'250'000'000}));
   EXPECT_EQ(CsvLayoutOf(channel).names, (Texts{"t", "q"}));
-  EXPECT_EQ(Lines(*log), (Texts{"walk 500000000: 0.5,1", "walk 1250000000: 1.25,2"}));
-  EXPECT_EQ(Lines(*log, {.from_ns = 600'000'000}), (Texts{"walk 1250000000: 1.25,2"}));
-  EXPECT_EQ(Lines(*log, {.topics = Texts{"other"}}), Texts{});
+  EXPECT_EQ(LinesOf(*log), (Texts{"walk 500000000: 0.5,1", "walk 1250000000: 1.25,2"}));
+  EXPECT_EQ(LinesOf(*log, {.from_ns = 600'000'000}), (Texts{"walk 1250000000: 1.25,2"}));
+  EXPECT_EQ(LinesOf(*log, {.topics = Texts{"other"}}), Texts{});
   EXPECT_TRUE(log->problems().empty());
 }
 
 TEST(CsvLog, ReadsEverySeparator) {
   const Texts expected = {"a 1000000000: 1", "a 2000000000: 2"};
   for (const std::string separator : {",", ";", "\t", " ", "   ", " , "}) {
-    Texts lines = Lines("1" + separator + "5.5" + separator + "-1e-3\n2" + separator + "6" +
-                        separator + "7\n");
+    Texts lines = LinesOf("1" + separator + "5.5" + separator + "-1e-3\n2" + separator + "6" +
+                          separator + "7\n");
     for (std::string& line : lines) line.resize(expected[0].size());
     EXPECT_EQ(lines, expected) << "\"" << separator << "\"";
   }
 }
 
 TEST(CsvLog, KnowsTheEndsOfLinesMarksAndComments) {
-  EXPECT_EQ(Lines("\xef\xbb\xbf# made by hand\r\n# t, q\r\n\r\n0.1, 5\r\n# a remark\r\n0.2, 6"),
+  EXPECT_EQ(LinesOf("\xef\xbb\xbf# made by hand\r\n# t, q\r\n\r\n0.1, 5\r\n# a remark\r\n0.2, 6"),
             (Texts{"a 100000000: 0.1, 5", "a 200000000: 0.2, 6"}));
   const Files files;
   const auto log = OpenLog(files.Write("numpy.txt", "# made by hand\n# t q\n0.1 5\n0.2 6\n"));
@@ -101,7 +101,7 @@ TEST(CsvLog, NumbersMayHaveACommaAsPoint) {
   EXPECT_EQ(ParseCsvNumber("nan"), std::nullopt);
   EXPECT_EQ(ParseCsvNumber(""), std::nullopt);
   EXPECT_EQ(ParseCsvNumber("1.2.3"), std::nullopt);
-  EXPECT_EQ(Lines("t;q\n0,5;1,25\n0,75;2\n"),
+  EXPECT_EQ(LinesOf("t;q\n0,5;1,25\n0,75;2\n"),
             (Texts{"a 500000000: 0,5;1,25", "a 750000000: 0,75;2"}));
 }
 
@@ -139,7 +139,7 @@ TEST(CsvLog, TakesTheColumnThatGrowsAsTime) {
 }
 
 TEST(CsvLog, WithoutAClockTheTimeIsTheLineNumber) {
-  EXPECT_EQ(Lines("x,y\n5,6\n4,7\n"), (Texts{"a 2: 5,6", "a 3: 4,7"}));
+  EXPECT_EQ(LinesOf("x,y\n5,6\n4,7\n"), (Texts{"a 2: 5,6", "a 3: 4,7"}));
 }
 
 TEST(CsvLog, SaysWhatItLeavesOut) {
@@ -148,8 +148,8 @@ TEST(CsvLog, SaysWhatItLeavesOut) {
   for (int i = 0; i < 60; ++i) text += std::to_string(0.1 * i) + ",1,2\n";
   const fs::path path = files.Write("a.csv", text + "7.0,1\nx,1,2\n7.1,1,2,3\n7.2,1,2\n7.3,1");
   const auto log = OpenLog(path);
-  EXPECT_EQ(Lines(*log).size(), 61u);
-  EXPECT_EQ(Lines(*log).back(), "a 7200000000: 7.2,1,2");
+  EXPECT_EQ(LinesOf(*log).size(), 61u);
+  EXPECT_EQ(LinesOf(*log).back(), "a 7200000000: 7.2,1,2");
   ASSERT_EQ(log->problems().size(), 2u);  // each once, however often it is read
   EXPECT_EQ(log->problems()[0],
             (LogProblem{LogProblem::Kind::kCut, path, "the last line, 66, is cut"}));
@@ -165,8 +165,8 @@ TEST(CsvLog, SeveralFilesAreOneLogInTheOrderOfTime) {
                  b = files.Write("b.csv", "t,x\n0.1,5\n0.2,6\n");
   const Texts expected = {"a 100000000: 0.1,1", "b 100000000: 0.1,5", "b 200000000: 0.2,6",
                           "a 300000000: 0.3,2"};
-  EXPECT_EQ(Lines(*OpenLog(std::vector{a, b})), expected);
-  EXPECT_EQ(Lines(*OpenLog(files.path())), expected);
+  EXPECT_EQ(LinesOf(*OpenLog(std::vector{a, b})), expected);
+  EXPECT_EQ(LinesOf(*OpenLog(files.path())), expected);
   EXPECT_EQ(OpenLog(files.path())->contents().format, "2 CSV files");
 }
 

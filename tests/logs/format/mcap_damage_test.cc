@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMessages = 100;
+constexpr int kWritten = 100;
 
 class DamagedMcapTest : public testing::Test {
  protected:
@@ -25,7 +25,7 @@ class DamagedMcapTest : public testing::Test {
     {
       McapWriter writer(path_, 1000);
       const auto channel = writer.AddChannel("/a", "pkg/msg/A", "int8 a");
-      for (int i = 0; i < kMessages; ++i) {
+      for (int i = 0; i < kWritten; ++i) {
         Bytes data(static_cast<std::size_t>(30 + i % 40));
         for (std::byte& b : data) b = static_cast<std::byte>(i * i);  // does not pack to nothing
         writer.Write(channel, 10'000'000 * i, data);
@@ -68,9 +68,9 @@ TEST_F(DamagedMcapTest, CutAnywhereItReadsToTheLastWholeMessageThatIsThere) {
     ASSERT_EQ(counted_, steps.size()) << "cut at " << size;
     const bool said = problems_.size() == 1 && problems_[0].kind == LogProblem::Kind::kCut &&
                       problems_[0].what.starts_with("cut off at byte ");
-    ASSERT_TRUE(said || (steps.size() == kMessages && problems_.empty())) << "cut at " << size;
+    ASSERT_TRUE(said || (steps.size() == kWritten && problems_.empty())) << "cut at " << size;
   }
-  EXPECT_EQ(last, static_cast<std::size_t>(kMessages));
+  EXPECT_EQ(last, static_cast<std::size_t>(kWritten));
 }
 
 TEST_F(DamagedMcapTest, CutChunkGivesItsFirstMessages) {
@@ -134,7 +134,7 @@ TEST_F(DamagedMcapTest, GoesOnAfterABadChunk) {
   bytes[words_[1] + 40] ^= 0x55;
   const std::vector<int> with_summary = Read(bytes);
   ASSERT_EQ(problems_.size(), 1u);
-  const int lost = kMessages - static_cast<int>(with_summary.size());
+  const int lost = kWritten - static_cast<int>(with_summary.size());
   EXPECT_EQ(problems_[0].kind, LogProblem::Kind::kLost);
   const std::size_t chunk = words_[1] - 9 - 8 - 8 - 8 - 4 - 4;
   const int first = static_cast<int>(std::adjacent_find(with_summary.begin(), with_summary.end(),
@@ -156,9 +156,9 @@ TEST_F(DamagedMcapTest, SummaryFindsWhatStandsBehindABrokenRecord) {
   const std::size_t length = words_[1] - 8 - 8 - 8 - 4 - 4 - 8;
   bytes[length + 6] = '\x7f';
   const std::vector<int> steps = Read(bytes);
-  EXPECT_EQ(steps.size(), static_cast<std::size_t>(kMessages)) << "its length is in the index";
+  EXPECT_EQ(steps.size(), static_cast<std::size_t>(kWritten)) << "its length is in the index";
   bytes[length - 1] = '\x77';  // no chunk at all
-  EXPECT_EQ(Read(bytes).back(), kMessages - 1);
+  EXPECT_EQ(Read(bytes).back(), kWritten - 1);
   ASSERT_EQ(problems_.size(), 1u);
   EXPECT_NE(problems_[0].what.find("no chunk is where the index says; "), std::string::npos)
       << problems_[0].what;
@@ -167,7 +167,7 @@ TEST_F(DamagedMcapTest, SummaryFindsWhatStandsBehindABrokenRecord) {
 TEST_F(DamagedMcapTest, DamagedSummaryIsDoneWithout) {
   std::string bytes = whole_;
   bytes[words_.back()] ^= 1;
-  EXPECT_EQ(Read(bytes).size(), static_cast<std::size_t>(kMessages));
+  EXPECT_EQ(Read(bytes).size(), static_cast<std::size_t>(kWritten));
   ASSERT_EQ(problems_.size(), 1u);
   EXPECT_EQ(problems_[0].kind, LogProblem::Kind::kOdd);
   EXPECT_EQ(problems_[0].what,
@@ -177,7 +177,7 @@ TEST_F(DamagedMcapTest, DamagedSummaryIsDoneWithout) {
 TEST_F(DamagedMcapTest, DamagedBeginningIsDoneWithout) {
   std::string bytes = whole_;
   bytes[0] = 'v';
-  EXPECT_EQ(Read(bytes).size(), static_cast<std::size_t>(kMessages));
+  EXPECT_EQ(Read(bytes).size(), static_cast<std::size_t>(kWritten));
   ASSERT_EQ(problems_.size(), 1u);
   EXPECT_EQ(problems_[0].what, "its first bytes are damaged");
 }
@@ -192,7 +192,7 @@ TEST_F(DamagedMcapTest, ChunkThatClaimsTooMuchIsRefused) {
            {~0ull, "chunk claims more than 256 MiB"}}) {
     std::string bytes = whole_;
     bytes.replace(chunk, 8, test::Number(size, 8));
-    EXPECT_LT(Read(bytes).size(), static_cast<std::size_t>(kMessages));
+    EXPECT_LT(Read(bytes).size(), static_cast<std::size_t>(kWritten));
     ASSERT_EQ(problems_.size(), 1u);
     EXPECT_NE(problems_[0].what.find(what), std::string::npos) << problems_[0].what;
   }

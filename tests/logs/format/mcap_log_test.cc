@@ -10,6 +10,7 @@
 #include "logs/format/open_log.h"
 #include "logs/messages/scoria.h"
 #include "logs/ros/type_resolver.h"
+#include "tests/logs/format/log_lines.h"
 #include "tests/support/db3_file.h"
 #include "tests/support/mcap_file.h"
 #include "tests/support/robots.h"
@@ -48,8 +49,6 @@ class McapLogTest : public testing::Test {
   test::TemporaryFolder folder_;
   fs::path path_ = folder_.path() / "a.mcap";
 };
-
-using Lines = std::vector<std::string>;
 
 const std::string kDefinitions = test::McapSchema(1, "pkg/msg/A", "ros2msg", "int8 a") +
                                  test::McapChannel(1, 1, "/a", "cdr") +

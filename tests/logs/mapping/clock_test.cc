@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/logs/mapping/times.h"
+
 namespace scoria::logs {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
+using test::kMs;
 
 ClockEvidence EvidenceOf(ClockChoice clock, double irregularity, std::uint64_t num_back = 0) {
   return {clock, 1000, num_back, 0.002, irregularity};

@@ -18,6 +18,7 @@
 #include "logs/format/open_log.h"
 #include "logs/mapping/any_rows.h"
 #include "logs/mapping/choose_mapping.h"
+#include "logs/vectors.h"
 #include "tests/support/go1_log.h"
 #include "tests/support/robots.h"
 
@@ -49,8 +50,6 @@ class FieldLogs : public testing::Test {
       GTEST_SKIP() << "SCORIA_REFERENCE_DATA is not set";
   }
 };
-
-Vec3 ToVec3(const Array3& v) { return {v[0], v[1], v[2]}; }
 
 double Mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());

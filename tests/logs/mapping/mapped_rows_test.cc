@@ -9,6 +9,7 @@
 #include "logs/mapping/choose_mapping.h"
 #include "logs/messages/scoria.h"
 #include "tests/logs/mapping/field_messages.h"
+#include "tests/logs/mapping/times.h"
 #include "tests/logs/ros/cdr_writer.h"
 #include "tests/support/memory_log.h"
 
@@ -24,7 +25,7 @@ using test::MemoryLog;
 using test::WriteStamp;
 using test::ZeroMessage;
 
-constexpr std::int64_t kMs = 1'000'000;
+using test::kMs;
 constexpr std::int64_t kStart_ns = test::kRecordingStart_ns;
 
 struct Mapped {

@@ -5,10 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/logs/mapping/times.h"
+
 namespace scoria::logs {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
+using test::kMs;
 constexpr auto kContinuous = SignalId::kBatteryVoltage;
 constexpr auto kHeld = SignalId::kCommandVx;
 constexpr auto kEvent = SignalId::kMpcTime;

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/math/angles.h"
 #include "core/math/so3.h"
 #include "core/rng.h"
 #include "logs/quality/tick.h"
+#include "logs/vectors.h"
 
 namespace scoria::test {
 namespace {
@@ -20,7 +22,6 @@ using logs::Row;
 using Rows = std::vector<Row>;
 using Result = std::optional<Expected>;
 
-constexpr double kDegreesPerRad = 180.0 / std::numbers::pi;
 constexpr double kGravity_mps2 = 9.81;
 
 /// Calls change(values) with the angles, rates and torques of the joints of every row.
@@ -44,9 +45,6 @@ void ChangeAttitudes(Rows& rows, const Change& change) {
 std::string AttitudeSignal(const Rows& rows) {
   return rows.front().truth ? "truth.attitude" : "estimate.attitude";
 }
-
-Vec3 ToVec3(const Array3& v) { return {v[0], v[1], v[2]}; }
-Array3 ToArray(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 struct Place {
   std::size_t number = 0;  // of twelve
@@ -98,7 +96,7 @@ Result JointOrder(Rows& rows, int place) {
 
 Result Degrees(Rows& rows, int place) {
   const auto scale = [](auto& values) {
-    for (double& value : values) value *= kDegreesPerRad;
+    for (double& value : values) value *= core::kDegreesPerRad;
   };
   Expected expected{.kind = FindingKind::kDegrees};
   switch (place % 4) {
@@ -150,8 +148,8 @@ Result InG(Rows& rows, int) {
 Result WithoutGravity(Rows& rows, int) {
   return ChangeAcceleration(rows, FindingKind::kGravityMissing, [](const Row& row, Array3& a) {
     const Mat3 R_WB =
-        core::RotationFromRpy(ToVec3(row.truth ? row.truth->rpy_rad : row.estimate->rpy_rad));
-    a = ToArray(ToVec3(a) - R_WB.transpose() * Vec3(0.0, 0.0, kGravity_mps2));
+        core::RotationFromRpy(logs::ToVec3(row.truth ? row.truth->rpy_rad : row.estimate->rpy_rad));
+    a = logs::ToArray(logs::ToVec3(a) - R_WB.transpose() * Vec3(0.0, 0.0, kGravity_mps2));
   });
 }
 
@@ -163,10 +161,10 @@ Result FlippedZ(Rows& rows, int) {
 Result QuaternionOrder(Rows& rows, int place) {
   const bool scalar_first = place % 2 == 0;
   ChangeAttitudes(rows, [&](const Array3& rpy) {
-    const Quat q(core::RotationFromRpy(ToVec3(rpy)));
+    const Quat q(core::RotationFromRpy(logs::ToVec3(rpy)));
     const Quat wrong = scalar_first ? Quat(q.z(), q.w(), q.x(), q.y())   // w x y z as x y z w
                                     : Quat(q.x(), q.y(), q.z(), q.w());  // x y z w as w x y z
-    return ToArray(core::RpyFromRotation(wrong.toRotationMatrix()));
+    return logs::ToArray(core::RpyFromRotation(wrong.toRotationMatrix()));
   });
   return Expected{.kind = FindingKind::kQuaternionOrder,
                   .signal = AttitudeSignal(rows),

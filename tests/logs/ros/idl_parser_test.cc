@@ -10,20 +10,22 @@ namespace {
 
 using test::kLine;
 
-std::vector<MessageDefinition> Parse(const std::string& text) { return ParseIdl(text, "T.idl"); }
-
-std::string ErrorOf(const std::string& text) {
-  return test::ErrorOf<DefinitionError>([&] { Parse(text); });
+std::vector<MessageDefinition> ParsedIdl(const std::string& text) {
+  return ParseIdl(text, "T.idl");
 }
 
-FieldDefinition FieldOf(const std::string& before, const std::string& member) {
-  return Parse("module pkg { module msg { " + before + " struct Type { " + member + " }; }; };")
+std::string IdlErrorOf(const std::string& text) {
+  return test::ErrorOf<DefinitionError>([&] { ParsedIdl(text); });
+}
+
+FieldDefinition IdlFieldOf(const std::string& before, const std::string& member) {
+  return ParsedIdl("module pkg { module msg { " + before + " struct Type { " + member + " }; }; };")
       .at(0)
       .fields.at(0);
 }
 
 TEST(IdlParser, ReadsWhatRosidlWrites) {
-  const auto messages = Parse(R"(// generated from rosidl_adapter/resource/msg.idl.em
+  const auto messages = ParsedIdl(R"(// generated from rosidl_adapter/resource/msg.idl.em
 #include "geometry_msgs/msg/Point.idl"
 #include "std_msgs/msg/Header.idl"
 
@@ -75,7 +77,7 @@ module pkg {
 }
 
 TEST(IdlParser, KnowsEveryPrimitive) {
-  const auto messages = Parse(
+  const auto messages = ParsedIdl(
       "struct Type { short a; unsigned short b; long c; unsigned long d; long long e;"
       " unsigned long long f; float g; double h; char i; int8 j; uint8 k; int16 l; uint16 m;"
       " int32 n; uint32 o; int64 p; uint64 q; };");
@@ -87,20 +89,20 @@ TEST(IdlParser, KnowsEveryPrimitive) {
 }
 
 TEST(IdlParser, ReadsTypedefsEnumsAndConstants) {
-  EXPECT_EQ(FieldOf("const unsigned long N = 0x10;", "double x[N];").count, 16u);
-  EXPECT_EQ(FieldOf("typedef double Row[3];", "Row x[2];").count, 6u);
-  EXPECT_EQ(FieldOf("", "double x[3][4];").count, 12u);
-  EXPECT_EQ(FieldOf("enum Mode { A, B = 5, C, };", "Mode x;").type, "uint32");
-  EXPECT_EQ(FieldOf("typedef sequence<string> Names;", "Names x;"),
+  EXPECT_EQ(IdlFieldOf("const unsigned long N = 0x10;", "double x[N];").count, 16u);
+  EXPECT_EQ(IdlFieldOf("typedef double Row[3];", "Row x[2];").count, 6u);
+  EXPECT_EQ(IdlFieldOf("", "double x[3][4];").count, 12u);
+  EXPECT_EQ(IdlFieldOf("enum Mode { A, B = 5, C, };", "Mode x;").type, "uint32");
+  EXPECT_EQ(IdlFieldOf("typedef sequence<string> Names;", "Names x;"),
             (FieldDefinition{"x", "string", Multiplicity::kSequence, 0, 0, ""}));
   const FieldDefinition bounded =
-      FieldOf("const short N = 7;", "sequence<string<N>, pkg::msg::N> x;");
+      IdlFieldOf("const short N = 7;", "sequence<string<N>, pkg::msg::N> x;");
   EXPECT_EQ(bounded.string_bound, 7u);
   EXPECT_EQ(bounded.count, 7u);
 }
 
 TEST(IdlParser, LooksNamesUpFromTheInnermostScope) {
-  const auto messages = Parse(
+  const auto messages = ParsedIdl(
       "module a { struct P { short x; }; module msg { struct P { long x; };"
       " struct Q { P inner; ::a::P outer; a::P other; Absent p; b::msg::P far; }; }; };");
   const auto& fields = messages.at(2).fields;
@@ -111,14 +113,14 @@ TEST(IdlParser, LooksNamesUpFromTheInnermostScope) {
 }
 
 TEST(IdlParser, OneMemberLineMayDeclareSeveral) {
-  const auto messages = Parse("struct A { float x, y[2], z; };");
+  const auto messages = ParsedIdl("struct A { float x, y[2], z; };");
   ASSERT_EQ(messages.at(0).fields.size(), 3u);
   EXPECT_EQ(messages[0].fields[1].count, 2u);
   EXPECT_EQ(messages[0].fields[2].multiplicity, Multiplicity::kOne);
 }
 
 TEST(IdlParser, KeepsWhatDelimitersDependOn) {
-  const auto messages = Parse(
+  const auto messages = ParsedIdl(
       "@final struct A { short x; }; @extensibility(APPENDABLE) struct B { short x; };"
       "@nested @key struct C { @key @id(3) short x; };");
   EXPECT_EQ(messages.at(0).extensibility, Extensibility::kFinal);
@@ -128,7 +130,7 @@ TEST(IdlParser, KeepsWhatDelimitersDependOn) {
 
 TEST(IdlParser, ReadsAConcatenatedSchemaInAnyOrder) {
   const std::string line = std::string(kLine).substr(1);
-  const auto messages = Parse(
+  const auto messages = ParsedIdl(
       line +
       "IDL: pkg/msg/Type\nmodule pkg { module msg { struct Type { pkg::msg::Vec v; }; }; };\n" +
       line +
@@ -140,35 +142,36 @@ TEST(IdlParser, ReadsAConcatenatedSchemaInAnyOrder) {
 }
 
 TEST(IdlParser, ErrorsNameLineTextAndRule) {
-  EXPECT_EQ(ErrorOf("module a {\n union U"),
+  EXPECT_EQ(IdlErrorOf("module a {\n union U"),
             "T.idl:2: \"union\": a module, struct, typedef, enum or const is expected");
-  EXPECT_EQ(ErrorOf("struct A {\n float x\n};"), "T.idl:3: \"}\": \";\" is expected");
-  EXPECT_EQ(ErrorOf("struct A { float x;"), "T.idl:1: \"end\": a name is expected");
-  EXPECT_EQ(ErrorOf("struct A { long double x; };"),
+  EXPECT_EQ(IdlErrorOf("struct A {\n float x\n};"), "T.idl:3: \"}\": \";\" is expected");
+  EXPECT_EQ(IdlErrorOf("struct A { float x;"), "T.idl:1: \"end\": a name is expected");
+  EXPECT_EQ(IdlErrorOf("struct A { long double x; };"),
             "T.idl:1: \"x\": long double is not a type of ROS messages");
-  EXPECT_EQ(ErrorOf("struct A { map<long, long> x; };"), "T.idl:1: \"map\": is not read here");
-  EXPECT_EQ(ErrorOf("struct A { @optional long x; };"), "T.idl:1: \"long\": @optional is not read");
-  EXPECT_EQ(ErrorOf("@mutable struct A { long x; };"),
+  EXPECT_EQ(IdlErrorOf("struct A { map<long, long> x; };"), "T.idl:1: \"map\": is not read here");
+  EXPECT_EQ(IdlErrorOf("struct A { @optional long x; };"),
+            "T.idl:1: \"long\": @optional is not read");
+  EXPECT_EQ(IdlErrorOf("@mutable struct A { long x; };"),
             "T.idl:1: \"struct\": a mutable struct is not read");
-  EXPECT_EQ(ErrorOf("struct A : B { long x; };"),
+  EXPECT_EQ(IdlErrorOf("struct A : B { long x; };"),
             "T.idl:1: \":\": a struct that inherits is not read");
-  EXPECT_EQ(ErrorOf("struct A { sequence<sequence<long>> x; };"),
+  EXPECT_EQ(IdlErrorOf("struct A { sequence<sequence<long>> x; };"),
             "T.idl:1: \"sequence\": a sequence of sequences is not read");
-  EXPECT_EQ(ErrorOf("struct A { sequence<@x sequence<long>> x; };"),
+  EXPECT_EQ(IdlErrorOf("struct A { sequence<@x sequence<long>> x; };"),
             "T.idl:1: \"sequence\": a sequence of sequences is not read");
-  EXPECT_EQ(ErrorOf("typedef long R[3]; struct A {\nsequence<R> x; };"),
+  EXPECT_EQ(IdlErrorOf("typedef long R[3]; struct A {\nsequence<R> x; };"),
             "T.idl:2: \"R\": a sequence of arrays or sequences is not read");
-  EXPECT_EQ(ErrorOf("typedef sequence<long> R; struct A { R x[2]; };"),
+  EXPECT_EQ(IdlErrorOf("typedef sequence<long> R; struct A { R x[2]; };"),
             "T.idl:1: \"R\": an array of sequences is not read");
-  EXPECT_EQ(ErrorOf("struct A { long x[N]; };"),
+  EXPECT_EQ(IdlErrorOf("struct A { long x[N]; };"),
             "T.idl:1: \"N\": is not a length (1 to 4294967295)");
-  EXPECT_EQ(ErrorOf("struct A { long x[65536][65536]; };"),
+  EXPECT_EQ(IdlErrorOf("struct A { long x[65536][65536]; };"),
             "T.idl:1: \"int32\": the array is too long");
-  EXPECT_EQ(ErrorOf("struct A { long x; long x; };"),
+  EXPECT_EQ(IdlErrorOf("struct A { long x; long x; };"),
             "T.idl:1: \"x\": there are two fields of that name");
-  EXPECT_EQ(ErrorOf("typedef B A; typedef A B; struct C { A x; };"),
+  EXPECT_EQ(IdlErrorOf("typedef B A; typedef A B; struct C { A x; };"),
             "T.idl:1: \"B\": typedefs go round in circles");
-  EXPECT_EQ(ErrorOf("const long N = 3"), "T.idl:1: \"end\": \";\" is expected");
+  EXPECT_EQ(IdlErrorOf("const long N = 3"), "T.idl:1: \"end\": \";\" is expected");
 }
 
 }  // namespace

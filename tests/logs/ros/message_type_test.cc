@@ -12,7 +12,7 @@ namespace {
 using test::kLine;
 using test::TypeOf;
 
-std::string ErrorOf(const std::string& schema) {
+std::string TypeErrorOf(const std::string& schema) {
   return test::ErrorOf<DefinitionError>([&] { TypeOf(schema); });
 }
 
@@ -66,12 +66,13 @@ TEST(MessageType, ABareHeaderIsTheOneOfStdMsgs) {
 }
 
 TEST(MessageType, ErrorsNameTypeFieldAndWhatIsMissing) {
-  EXPECT_EQ(ErrorOf("float65 x"),
+  EXPECT_EQ(TypeErrorOf("float65 x"),
             "pkg/msg/Type: x: no definition of pkg/msg/float65 (did you mean \"float64\"?)");
-  EXPECT_EQ(ErrorOf("a/Pose x"), "pkg/msg/Type: x: no definition of a/msg/Pose");
-  EXPECT_EQ(ErrorOf("Type x"), "pkg/msg/Type: x: pkg/msg/Type contains itself");
-  EXPECT_EQ(ErrorOf(std::string("A a") + kLine + "MSG: pkg/A\nB b" + kLine + "MSG: pkg/B\nA[] a"),
-            "pkg/msg/B: a: pkg/msg/A contains itself");
+  EXPECT_EQ(TypeErrorOf("a/Pose x"), "pkg/msg/Type: x: no definition of a/msg/Pose");
+  EXPECT_EQ(TypeErrorOf("Type x"), "pkg/msg/Type: x: pkg/msg/Type contains itself");
+  EXPECT_EQ(
+      TypeErrorOf(std::string("A a") + kLine + "MSG: pkg/A\nB b" + kLine + "MSG: pkg/B\nA[] a"),
+      "pkg/msg/B: a: pkg/msg/A contains itself");
 }
 
 /// Types A0 to A`count`, each with `copies` of the next.
@@ -87,9 +88,9 @@ std::string Chain(int count, int copies) {
 }
 
 TEST(MessageType, RefusesTypesNestedTooDeepOrGrownTooLarge) {
-  EXPECT_EQ(ErrorOf(Chain(62, 1)), "no error");
-  EXPECT_EQ(ErrorOf(Chain(63, 1)), "pkg/msg/A63: nested deeper than 64 messages");
-  EXPECT_EQ(ErrorOf(Chain(30, 2)), "pkg/msg/A10: more than 1000000 fields");
+  EXPECT_EQ(TypeErrorOf(Chain(62, 1)), "no error");
+  EXPECT_EQ(TypeErrorOf(Chain(63, 1)), "pkg/msg/A63: nested deeper than 64 messages");
+  EXPECT_EQ(TypeErrorOf(Chain(30, 2)), "pkg/msg/A10: more than 1000000 fields");
 }
 
 TEST(MessageType, ListsLeavesWithTheirShape) {

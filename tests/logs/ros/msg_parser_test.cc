@@ -10,37 +10,42 @@ namespace {
 
 using test::kLine;
 
-MessageDefinition Parse(const std::string& text) { return ParseMsg(text, "pkg/msg/Type", "T.msg"); }
-
-std::string ErrorOf(const std::string& text) {
-  return test::ErrorOf<DefinitionError>([&] { Parse(text); });
+MessageDefinition ParsedMsg(const std::string& text) {
+  return ParseMsg(text, "pkg/msg/Type", "T.msg");
 }
 
-FieldDefinition FieldOf(const std::string& line) { return Parse(line).fields.at(0); }
+std::string MsgErrorOf(const std::string& text) {
+  return test::ErrorOf<DefinitionError>([&] { ParsedMsg(text); });
+}
+
+FieldDefinition MsgFieldOf(const std::string& line) { return ParsedMsg(line).fields.at(0); }
 
 TEST(MsgParser, ReadsScalarsArraysAndBounds) {
-  EXPECT_EQ(FieldOf("float64 x"), (FieldDefinition{"x", "float64", Multiplicity::kOne, 0, 0, ""}));
-  EXPECT_EQ(FieldOf("int8[3] x"), (FieldDefinition{"x", "int8", Multiplicity::kArray, 3, 0, ""}));
-  EXPECT_EQ(FieldOf("bool[] x"), (FieldDefinition{"x", "bool", Multiplicity::kSequence, 0, 0, ""}));
-  EXPECT_EQ(FieldOf("float64[<=3] x"),
+  EXPECT_EQ(MsgFieldOf("float64 x"),
+            (FieldDefinition{"x", "float64", Multiplicity::kOne, 0, 0, ""}));
+  EXPECT_EQ(MsgFieldOf("int8[3] x"),
+            (FieldDefinition{"x", "int8", Multiplicity::kArray, 3, 0, ""}));
+  EXPECT_EQ(MsgFieldOf("bool[] x"),
+            (FieldDefinition{"x", "bool", Multiplicity::kSequence, 0, 0, ""}));
+  EXPECT_EQ(MsgFieldOf("float64[<=3] x"),
             (FieldDefinition{"x", "float64", Multiplicity::kSequence, 3, 0, ""}));
-  EXPECT_EQ(FieldOf("string<=22 s"),
+  EXPECT_EQ(MsgFieldOf("string<=22 s"),
             (FieldDefinition{"s", "string", Multiplicity::kOne, 0, 22, ""}));
-  EXPECT_EQ(FieldOf("wstring<=5[<=10] s"),
+  EXPECT_EQ(MsgFieldOf("wstring<=5[<=10] s"),
             (FieldDefinition{"s", "wstring", Multiplicity::kSequence, 10, 5, ""}));
 }
 
 TEST(MsgParser, KeepsDefaultsAsWritten) {
-  EXPECT_EQ(FieldOf("string<=22 s \"Hello # world!\"  # comment").default_text,
+  EXPECT_EQ(MsgFieldOf("string<=22 s \"Hello # world!\"  # comment").default_text,
             "\"Hello # world!\"");
-  EXPECT_EQ(FieldOf("float64[<=3] x [1.0, 2.0]").default_text, "[1.0, 2.0]");
-  EXPECT_EQ(FieldOf("string s 'Hello\\'#world!'").default_text, "'Hello\\'#world!'");
-  EXPECT_EQ(FieldOf("string s \"a=b\"").default_text, "\"a=b\"");
-  EXPECT_EQ(FieldOf("string s bare").default_text, "bare");
+  EXPECT_EQ(MsgFieldOf("float64[<=3] x [1.0, 2.0]").default_text, "[1.0, 2.0]");
+  EXPECT_EQ(MsgFieldOf("string s 'Hello\\'#world!'").default_text, "'Hello\\'#world!'");
+  EXPECT_EQ(MsgFieldOf("string s \"a=b\"").default_text, "\"a=b\"");
+  EXPECT_EQ(MsgFieldOf("string s bare").default_text, "bare");
 }
 
 TEST(MsgParser, ReadsConstants) {
-  const MessageDefinition m = Parse(
+  const MessageDefinition m = ParsedMsg(
       "uint8 A=1\nuint8 B = 2\nstring NAME=\"a#b\"\nstring BARE= a b # c\nstring EMPTY=\n"
       "float32 X=-1.5 #c\n");
   EXPECT_TRUE(m.fields.empty());
@@ -51,46 +56,46 @@ TEST(MsgParser, ReadsConstants) {
 }
 
 TEST(MsgParser, ResolvesNamesOfMessages) {
-  EXPECT_EQ(FieldOf("Other x").type, "pkg/msg/Other");
-  EXPECT_EQ(FieldOf("geometry_msgs/Pose x").type, "geometry_msgs/msg/Pose");
-  EXPECT_EQ(FieldOf("geometry_msgs/msg/Pose[4] x").type, "geometry_msgs/msg/Pose");
-  EXPECT_EQ(FieldOf("Header header").type, "pkg/msg/Header");
+  EXPECT_EQ(MsgFieldOf("Other x").type, "pkg/msg/Other");
+  EXPECT_EQ(MsgFieldOf("geometry_msgs/Pose x").type, "geometry_msgs/msg/Pose");
+  EXPECT_EQ(MsgFieldOf("geometry_msgs/msg/Pose[4] x").type, "geometry_msgs/msg/Pose");
+  EXPECT_EQ(MsgFieldOf("Header header").type, "pkg/msg/Header");
 }
 
 TEST(MsgParser, ToleratesHowFilesAreWritten) {
   // Byte order mark, CRLF, tabs, comments in other scripts, no line end at the end.
-  const MessageDefinition m = Parse(
+  const MessageDefinition m = ParsedMsg(
       "\xEF\xBB\xBF# （rad）\r\nuint8\tgait_type\t\r\n\r\n  float32[3] position  \t # "
       "m（N*m）\r\nbool last");
   ASSERT_EQ(m.fields.size(), 3u);
   EXPECT_EQ(m.fields[0].name, "gait_type");
   EXPECT_EQ(m.fields[1].count, 3u);
   EXPECT_EQ(m.fields[2].name, "last");
-  EXPECT_TRUE(Parse("").fields.empty());
+  EXPECT_TRUE(ParsedMsg("").fields.empty());
 }
 
 TEST(MsgParser, AFieldMayBeCalledLikeAType) {
-  EXPECT_EQ(FieldOf("uint32 float64").name, "float64");
-  EXPECT_EQ(FieldOf("Duration Duration").type, "pkg/msg/Duration");
+  EXPECT_EQ(MsgFieldOf("uint32 float64").name, "float64");
+  EXPECT_EQ(MsgFieldOf("Duration Duration").type, "pkg/msg/Duration");
 }
 
 TEST(MsgParser, ErrorsNameLineTextAndRule) {
-  EXPECT_EQ(ErrorOf("bool a\nfloat64"),
+  EXPECT_EQ(MsgErrorOf("bool a\nfloat64"),
             "T.msg:2: \"float64\": a type is followed by the name of a field");
-  EXPECT_EQ(ErrorOf("float64 2a"), "T.msg:1: \"float64 2a\": \"2a\" is not a name");
-  EXPECT_EQ(ErrorOf("float64[x] a"),
+  EXPECT_EQ(MsgErrorOf("float64 2a"), "T.msg:1: \"float64 2a\": \"2a\" is not a name");
+  EXPECT_EQ(MsgErrorOf("float64[x] a"),
             "T.msg:1: \"float64[x] a\": \"x\" is not a length (1 to 4294967295)");
-  EXPECT_EQ(ErrorOf("float64[0] a"),
+  EXPECT_EQ(MsgErrorOf("float64[0] a"),
             "T.msg:1: \"float64[0] a\": \"0\" is not a length (1 to 4294967295)");
-  EXPECT_EQ(ErrorOf("float64] a"), "T.msg:1: \"float64] a\": \"]\" without \"[\"");
-  EXPECT_EQ(ErrorOf("int8<=3 a"),
+  EXPECT_EQ(MsgErrorOf("float64] a"), "T.msg:1: \"float64] a\": \"]\" without \"[\"");
+  EXPECT_EQ(MsgErrorOf("int8<=3 a"),
             "T.msg:1: \"int8<=3 a\": \"<=N\" bounds a string or an array \"[<=N]\"");
-  EXPECT_EQ(ErrorOf("a/b/c/d x"), "T.msg:1: \"a/b/c/d x\": \"a/b/c/d\" is not a type");
-  EXPECT_EQ(ErrorOf("int8 A ="), "T.msg:1: \"int8 A =\": a constant has a value");
-  EXPECT_EQ(ErrorOf("int8[2] A=1"),
+  EXPECT_EQ(MsgErrorOf("a/b/c/d x"), "T.msg:1: \"a/b/c/d x\": \"a/b/c/d\" is not a type");
+  EXPECT_EQ(MsgErrorOf("int8 A ="), "T.msg:1: \"int8 A =\": a constant has a value");
+  EXPECT_EQ(MsgErrorOf("int8[2] A=1"),
             "T.msg:1: \"int8[2] A=1\": a constant is one number, bool or string");
-  EXPECT_EQ(ErrorOf("int8 a\nint16 a"), "T.msg:2: \"int16 a\": there are two fields \"a\"");
-  EXPECT_EQ(ErrorOf("int64 a\n---\nint64 b"),
+  EXPECT_EQ(MsgErrorOf("int8 a\nint16 a"), "T.msg:2: \"int16 a\": there are two fields \"a\"");
+  EXPECT_EQ(MsgErrorOf("int64 a\n---\nint64 b"),
             "T.msg:2: \"---\": a service or action is not one message");
 }
 
