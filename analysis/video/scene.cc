@@ -198,11 +198,8 @@ struct Scene::Impl {
                   data.indices.data(), GL_STATIC_DRAW);
     constexpr GLsizei kStride = MeshData::kFloatsPerVertex * sizeof(float);
     for (GLuint attribute = 0; attribute < 3; ++attribute) {
-      gl.VertexAttribPointer(
-          attribute, 3, GL_FLOAT, GL_FALSE, kStride,
-          reinterpret_cast<const void*>(
-              3 * sizeof(float) *
-              attribute));  // NOLINT(performance-no-int-to-ptr): GL takes offsets so
+      gl.VertexAttribPointer(attribute, 3, GL_FLOAT, GL_FALSE, kStride,
+                             reinterpret_cast<const void*>(3 * sizeof(float) * attribute));
       gl.EnableVertexAttribArray(attribute);
     }
     return mesh;

@@ -152,7 +152,7 @@ CampaignOutcome RunCampaign(const Campaign& campaign, const CampaignOptions& opt
   const core::FolderLock lock(options.folder, std::chrono::seconds(1));
   core::CreateFolders(options.folder / "episodes");
   WriteIndex(campaign, jobs, options.folder);
-  const CampaignOutcome outcome = CampaignRunner(campaign, jobs, options).Run();
+  CampaignOutcome outcome = CampaignRunner(campaign, jobs, options).Run();
   if (outcome.stop) WriteIndex(campaign, jobs, options.folder, outcome.stop);
   return outcome;
 }

@@ -72,7 +72,7 @@ std::string Scenario::Problem() const {
   } catch (const core::ConfigError& e) {
     return e.what();
   }
-  if (const std::string problem = sim::EngineProblem(physics, sliding_payload.has_value());
+  if (std::string problem = sim::EngineProblem(physics, sliding_payload.has_value());
       !problem.empty())
     return problem;
   return sim::PayloadProblem(payloads);
