@@ -2,7 +2,7 @@
 
 set(SCORIA_MARCH "x86-64-v3" CACHE STRING "Value of -march; empty for the compiler's default")
 option(SCORIA_WERROR "Warnings are errors" OFF)
-option(SCORIA_UNITY "Compile the sources of a folder together, which takes a third of the time; OFF shows a missing include" ON)
+option(SCORIA_UNITY "Compile the sources of a folder together, which is quicker; OFF shows a missing include" ON)
 set(SCORIA_SANITIZE "" CACHE STRING "Value of -fsanitize, such as address,undefined; with fuzzer-no-link the fuzz targets are programs")
 
 if(NOT CMAKE_BUILD_TYPE)
