@@ -10,7 +10,7 @@
 namespace scoria::analysis {
 namespace {
 
-/// Sums of one stretch without a break.
+/// Sums over stretches.
 struct Pairs {
   double sum_m2 = 0.0;
   std::uint64_t count = 0;
@@ -45,16 +45,26 @@ struct Pairs {
 
 }  // namespace
 
+std::vector<std::span<const Vec3>> FootholdRoughness::Stretches() const {
+  std::vector<std::span<const Vec3>> stretches;
+  const std::span<const Vec3> all(footholds_);
+  std::size_t begin = 0;
+  auto next_break = breaks_.begin();
+  for (std::size_t i = 0; i <= all.size(); ++i) {
+    bool ends = i == all.size();
+    for (; next_break != breaks_.end() && *next_break == i; ++next_break) ends = true;
+    ends = ends || (all[i] - all[begin]).head<2>().norm() > kStretch_m;
+    if (!ends || i == begin) continue;
+    stretches.push_back(all.subspan(begin, i - begin));
+    begin = i;
+  }
+  return stretches;
+}
+
 std::optional<double> FootholdRoughness::Nu_m(double lag_m) const {
   constexpr std::uint64_t kLeast = 30;
   Pairs pairs;
-  std::size_t begin = 0;
-  const auto add = [&](std::size_t end) {
-    pairs.Add(std::span(footholds_).subspan(begin, end - begin), lag_m);
-    begin = end;
-  };
-  for (const std::size_t end : breaks_) add(end);
-  add(footholds_.size());
+  for (const std::span<const Vec3> stretch : Stretches()) pairs.Add(stretch, lag_m);
   if (pairs.count < kLeast) return std::nullopt;
   return std::sqrt(pairs.sum_m2 / static_cast<double>(pairs.count));
 }

@@ -1,23 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "analysis/field/leg_odometry.h"
 
-#include <cmath>
-
 #include "core/math/so3.h"
-#include "core/robot/whole_body.h"
+#include "core/robot/stance_velocity.h"
 #include "logs/vectors.h"
 
 namespace scoria::analysis {
-namespace {
-
-/// Angular velocity of a shank in B: HAA turns about x, HFE and KFE about the y that HAA has
-/// turned.
-Vec3 ShankRate(const Vec3& q, const Vec3& qd, const Vec3& w_WB_B) {
-  const Vec3 pitch_B(0.0, std::cos(q.x()), std::sin(q.x()));
-  return w_WB_B + qd.x() * Vec3::UnitX() + (qd.y() + qd.z()) * pitch_B;
-}
-
-}  // namespace
 
 std::optional<Mat3> AttitudeOf(const logs::Row& row, const core::RobotDescription* robot) {
   if (row.truth) return core::RotationFromRpy(logs::ToVec3(row.truth->rpy_rad));
@@ -43,20 +31,10 @@ std::optional<Vec3> CalcLegVelocity(const core::RobotDescription& robot, const l
   const std::optional<Vec3> w_WB_B = RateOf(row, &robot);
   if (!R_WB || !w_WB_B || !row.contacts || !row.measured || !row.measured->q_rad)
     return std::nullopt;
-  const LegArray<Vec3> q = Unflatten(*row.measured->q_rad), qd = Unflatten(qd_radps);
-  const Vec3 up_B = R_WB->transpose() * Vec3::UnitZ();
-  Vec3 sum = Vec3::Zero();
-  int feet = 0;
-  for (const Leg leg : kLegs) {
-    if (!row.contacts->contact[static_cast<std::size_t>(leg)]) continue;
-    const core::LegKinematics foot = core::CalcLegKinematics(robot.legs[leg], q[leg]);
-    const Vec3 rolls_B =
-        ShankRate(q[leg], qd[leg], *w_WB_B).cross(robot.legs[leg].foot_radius_m * up_B);
-    sum -= foot.J * qd[leg] + w_WB_B->cross(foot.p_BF) - rolls_B;
-    ++feet;
-  }
-  if (feet == 0) return std::nullopt;
-  return Vec3(*R_WB * sum / feet);
+  LegArray<bool> contact;
+  for (const Leg leg : kLegs) contact[leg] = row.contacts->contact[static_cast<std::size_t>(leg)];
+  return core::CalcStanceVelocity(robot, *R_WB, *R_WB * *w_WB_B, Unflatten(*row.measured->q_rad),
+                                  Unflatten(qd_radps), contact, core::StanceFoot::kRolls);
 }
 
 }  // namespace scoria::analysis

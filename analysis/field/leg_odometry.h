@@ -17,8 +17,8 @@ namespace scoria::analysis {
 [[nodiscard]] std::optional<Vec3> RateOf(const logs::Row& row, const core::RobotDescription* robot);
 
 /// Velocity of the trunk in W that its feet in contact tell, as if they rolled on the ground and
-/// none slipped: mean of -(J qd + w × p_BF - w_shank × r up). Nothing without joints, contacts,
-/// attitude or rate, or without a foot in contact.
+/// none slipped (core::CalcStanceVelocity). Nothing without joints, contacts, attitude or rate, or
+/// without a foot in contact.
 /// @param qd_radps  speeds of the joints.
 [[nodiscard]] std::optional<Vec3> CalcLegVelocity(const core::RobotDescription& robot,
                                                   const logs::Row& row,

@@ -21,10 +21,41 @@ bool IsCompared(const MetricInfo& info) {
          !info.key.starts_with("command_");
 }
 
-std::vector<double> ValuesOf(std::span<const ComparedWalk> walks, const Metric& metric) {
+/// A mean that follows a command, and is compared less that: walks with other commands differ in
+/// what was asked of them.
+struct Commanded {
+  std::string_view key, command, title;
+};
+constexpr std::array<Commanded, 3> kCommanded = {
+    {{"velocity_x_mps", "command_x_mps", "forward velocity less its command"},
+     {"velocity_y_mps", "command_y_mps", "lateral velocity less its command"},
+     {"yaw_rate_radps", "command_yaw_radps", "yaw rate less its command"}}};
+
+/// A metric as it is compared.
+struct Compared {
+  MetricInfo info;
+  const Metric& metric;
+  const Metric* command = nullptr;  // null: it follows none
+};
+
+Compared AsCompared(const Metric& metric, const Metrics& metrics) {
+  const auto commanded = std::ranges::find(kCommanded, metric.info.key, &Commanded::key);
+  if (commanded == kCommanded.end()) return {metric.info, metric};
+  const auto command =
+      std::ranges::find(metrics, commanded->command, [](const Metric& m) { return m.info.key; });
+  if (command == metrics.end()) return {metric.info, metric};
+  Compared compared{metric.info, metric, &*command};
+  compared.info.title = commanded->title;
+  return compared;
+}
+
+std::vector<double> ValuesOf(std::span<const ComparedWalk> walks, const Compared& compared) {
   std::vector<double> values;
   for (const ComparedWalk& walk : walks) {
-    if (const std::optional<double> value = ValueOf(metric, walk.metrics)) values.push_back(*value);
+    std::optional<double> value = ValueOf(compared.metric, walk.metrics);
+    if (value && compared.command != nullptr)
+      *value -= ValueOf(*compared.command, walk.metrics).value_or(0.0);
+    if (value) values.push_back(*value);
   }
   return values;
 }
@@ -147,14 +178,15 @@ SetComparison CompareSets(std::span<const ComparedWalk> a, std::span<const Compa
   SetComparison out;
   for (const Metric& metric : metrics) {
     if (!IsCompared(metric.info)) continue;
-    std::vector<double> of_a = ValuesOf(a, metric), of_b = ValuesOf(b, metric);
+    const Compared compared = AsCompared(metric, metrics);
+    std::vector<double> of_a = ValuesOf(a, compared), of_b = ValuesOf(b, compared);
     if (of_a.empty() || of_b.empty()) continue;
     if (IsOnCircle(metric.info)) Unwrap(of_a, of_b);
     if ((metric.info.needs & mixed).any()) {
       out.other_sources.push_back(metric.info);
     } else {
       out.metrics.push_back(
-          {metric.info, CompareValues(of_a, of_b, metric.info.better == Better::kLower), {}});
+          {compared.info, CompareValues(of_a, of_b, metric.info.better == Better::kLower), {}});
     }
   }
   for (const auto& [signal, name] : EnumNames(Signal{})) {

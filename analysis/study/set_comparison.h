@@ -59,8 +59,9 @@ struct SetComparison {
 };
 
 /// The metrics and signals that both sets have. Sums over a walk, which grow with its length,
-/// wall-clock times and commands are not compared. Signals, and metrics of which less is better,
-/// are compared as magnitudes (CompareMagnitudes) unless one is zero.
+/// wall-clock times and commands are not compared; mean velocities are less their commands.
+/// Signals, and metrics of which less is better, are compared as magnitudes (CompareMagnitudes)
+/// unless one is zero.
 /// @param a, b  not empty.
 [[nodiscard]] SetComparison CompareSets(std::span<const ComparedWalk> a,
                                         std::span<const ComparedWalk> b, const Metrics& metrics);

@@ -13,7 +13,7 @@ namespace scoria::app {
 void AddScenarioFrom(CLI::App& app) {
   struct Options {
     DraftScenarioOptions draft;
-    bool force = false;
+    bool force = false, no_walks = false;
   };
   auto o = std::make_shared<Options>();
   CLI::App* command =
@@ -33,8 +33,11 @@ void AddScenarioFrom(CLI::App& app) {
       ->add_option("--controllers", o->draft.controllers,
                    "folder of controllers, one of the robot's name is taken as base")
       ->capture_default_str();
+  command->add_flag("--no-walks", o->no_walks,
+                    "do not walk the draft to read the ground's friction, which takes a minute");
   command->add_flag("--force", o->force, "overwrite a file that is there");
   command->callback([o] {
+    o->draft.walks = !o->no_walks;
     const std::filesystem::path& out = o->draft.out;
     if (std::filesystem::exists(out) && !o->force)
       throw std::runtime_error(

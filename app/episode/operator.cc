@@ -14,6 +14,17 @@ namespace {
 constexpr std::size_t kWindow =
     50;  // points of the route ahead among which the robot is looked for
 
+using Steps = std::vector<VelocityStep>;
+
+/// A programme's heading at a time of the step `now`, before `next` begins: on a line to the
+/// heading of that, or as the step commands to turn.
+double HeadingDuring(const VelocityStep& now, Steps::const_iterator next, Steps::const_iterator end,
+                     double time_s) {
+  const double since_s = time_s - now.at_s;
+  if (next == end || !next->heading_rad) return *now.heading_rad + since_s * now.w_z_radps;
+  return std::lerp(*now.heading_rad, *next->heading_rad, since_s / (next->at_s - now.at_s));
+}
+
 }  // namespace
 
 Operator::Operator(const OperatorParams& params, const core::RobotDescription& robot,
@@ -109,18 +120,32 @@ Command Operator::FollowRoute(const RouteParams& params, const RobotState& state
   return hand_;
 }
 
+/// The step that has begun last, and its heading's correction.
+Command Operator::FollowProgramme(const VelocityProgramme& programme, const RobotState& state,
+                                  double time_s) noexcept {
+  const Steps& steps = programme.steps;
+  const auto next = std::ranges::upper_bound(steps, time_s, {}, &VelocityStep::at_s);
+  if (next == steps.begin()) return {};
+  const VelocityStep& now = *std::prev(next);
+  Command command;
+  command.v_x_mps = now.v_x_mps;
+  command.v_y_mps = now.v_y_mps;
+  command.w_z_radps = now.w_z_radps;
+  command.pattern = now.pattern;
+  if (!now.heading_rad || command.IsStop()) return command;
+  const double heading_rad = HeadingDuring(now, next, steps.end(), time_s);
+  const double yaw_rad = core::RpyFromRotation(state.R_WB).z();
+  if (!heading_zero_rad_) heading_zero_rad_ = yaw_rad - heading_rad;
+  const double error_rad = core::WrapToPi(*heading_zero_rad_ + heading_rad - yaw_rad);
+  command.w_z_radps += std::clamp(programme.yaw_gain_per_s * error_rad,
+                                  -programme.max_correction_radps, programme.max_correction_radps);
+  return command;
+}
+
 Command Operator::Update(const RobotState& state, double time_s, double dt_s) noexcept {
   if (const auto* route = std::get_if<RouteParams>(&params_))
     return FollowRoute(*route, state, dt_s);
-  Command command;
-  for (const VelocityStep& step : std::get<VelocityProgramme>(params_).steps) {
-    if (time_s < step.at_s) break;
-    command.v_x_mps = step.v_x_mps;
-    command.v_y_mps = step.v_y_mps;
-    command.w_z_radps = step.w_z_radps;
-    command.pattern = step.pattern;
-  }
-  return command;
+  return FollowProgramme(std::get<VelocityProgramme>(params_), state, time_s);
 }
 
 }  // namespace scoria::app

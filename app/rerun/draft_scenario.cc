@@ -2,100 +2,26 @@
 #include "app/rerun/draft_scenario.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "app/rerun/nearest_preset.h"
+#include "app/rerun/read_friction.h"
 #include "app/rerun/walk_summary.h"
-#include "app/scenario/config_kinds.h"
 #include "core/config/archive.h"
 #include "core/files.h"
-#include "terrains/generator.h"
+#include "logs/format/temporary_folder.h"
 
 namespace scoria::app {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Lags at which footholds and presets are compared: a step, and what the trunk spans.
-constexpr double kShort_m = 0.25, kLong_m = 1.0;
-
-/// What footholds on level ground differ by, as a Go2's walk tells them.
-constexpr double kNoise_m = 0.008;
-
-/// The walked part of a ground is rougher or smoother than the whole: an operator chooses the way.
-/// A factor is cheaper than another form, by this share of its logarithm.
-constexpr double kLeastScale = 0.4, kMostScale = 2.5, kScaleCost = 0.5;
-
 /// Share of its apex that a swinging foot reaches: 0.90 to 0.91 with apexes of 0.06, 0.10 and 0.14
 /// m of a Go2 with `ags` on self-affine ground, 0.94 with `sgs`.
 constexpr double kReached = 0.9;
-
-/// Distances that differ by less are equal: over some twenty metres of way the roughness of one
-/// ground scatters by more.
-constexpr double kIndistinct = 0.15;
-
-/// What a ground has beside one roughness on one material.
-int CountFeatures(const terrains::TerrainParams& t) {
-  return static_cast<int>(t.patches.size()) + (t.slope_rad != 0.0) + (t.rocks.area_fraction > 0.0) +
-         (t.ripples.amplitude_m > 0.0) + (t.gullies.per_20m > 0.0) + (t.craters.per_100m2 > 0.0) +
-         (t.ropes.amplitude_m > 0.0) + (t.cells.amplitude_m > 0.0) + !t.heightmap.file.empty();
-}
-
-struct Preset {
-  fs::path file;
-  int features = 0;
-  double nu_short_m = 0.0, nu_long_m = 0.0;
-  double scale = 1.0;     // with which it is nearest to the footholds
-  double distance = 0.0;  // then: log ratios, root of the sum of squares, and the scale's cost
-};
-
-/// The scale with which a preset is nearest to footholds.
-void Fit(double found_short_m, double found_long_m, Preset& preset) {
-  const auto ratio = [](double found_m, double preset_m) {
-    return std::log(std::max(found_m, kNoise_m) / std::hypot(preset_m, kNoise_m));
-  };
-  const double at_short = ratio(found_short_m, preset.nu_short_m),
-               at_long = ratio(found_long_m, preset.nu_long_m);
-  const bool is_level = std::max(preset.nu_short_m, preset.nu_long_m) < kNoise_m;
-  const double log_scale = is_level ? 0.0
-                                    : std::clamp(0.5 * (at_short + at_long), std::log(kLeastScale),
-                                                 std::log(kMostScale));
-  preset.scale = std::exp(log_scale);
-  preset.distance =
-      std::hypot(at_short - log_scale, at_long - log_scale) + kScaleCost * std::abs(log_scale);
-}
-
-/// Presets by their distance from the footholds, the nearest first; but of those that are about as
-/// near, the plainest first. None if the footholds are too few.
-std::vector<Preset> NearestPresets(const fs::path& folder,
-                                   const analysis::FootholdRoughness& footholds) {
-  const std::optional<double> at_short = footholds.Nu_m(kShort_m),
-                              at_long = footholds.Nu_m(kLong_m);
-  if (!at_short || !at_long) return {};
-  std::vector<Preset> presets;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.path().extension() != ".yaml") continue;
-    const auto params =
-        core::ReadConfig<terrains::TerrainParams>(LoadKind("terrain", entry.path(), {}));
-    const terrains::TerrainStatistics found =
-        terrains::MeasureTerrain(terrains::GenerateTerrain(params, 1, 0), params);
-    const auto known = [](double nu_m) { return std::isfinite(nu_m) ? nu_m : 0.0; };
-    Preset preset{entry.path(), CountFeatures(params), known(found.nu_25cm_m),
-                  known(found.nu_1m_m)};
-    Fit(*at_short, *at_long, preset);
-    presets.push_back(preset);
-  }
-  std::ranges::sort(presets, {}, &Preset::distance);
-  const auto as_near = std::ranges::find_if(presets, [&](const Preset& preset) {
-    return preset.distance > presets.front().distance + kIndistinct;
-  });
-  std::ranges::stable_sort(presets.begin(), as_near, {}, &Preset::features);
-  return presets;
-}
 
 /// A path as the drafted file names it.
 std::string From(const fs::path& out, const fs::path& file) {
@@ -113,42 +39,70 @@ std::string Indented(const std::string& text) {
   return out;
 }
 
-std::string DraftRobot(const DraftScenarioOptions& options, const LogInputs& inputs) {
+std::string DraftRobot(const fs::path& out, const LogInputs& inputs) {
   if (!inputs.robot_file.empty())
-    return fmt::format("robot: {{base: {}}}\n", From(options.out, inputs.robot_file));
+    return fmt::format("robot: {{base: {}}}\n", From(out, inputs.robot_file));
   return "robot:  # as the log holds it\n" +
          Indented(core::EmitYaml(core::WriteConfig(inputs.robot.config)));
 }
 
-std::string DraftTerrain(const DraftScenarioOptions& options, const WalkSummary& walk) {
-  const std::vector<Preset> presets = NearestPresets(options.terrains, walk.roughness);
+/// The friction as it is read by walks of a draft that lacks it.
+struct Friction {
+  std::optional<double> slip_m;  // of the log
+  std::vector<SlipOnFriction> walked;
+  std::optional<double> value;
+};
+
+std::string DraftFriction(const Friction& friction) {
+  if (friction.walked.empty()) return "# Not known: friction, which is the preset's.\n";
+  std::string text = fmt::format(
+      "# Friction by the slip that 95 % of the stances stay below: {:.1f} mm. In walks of this "
+      "draft it is\n#",
+      1e3 * *friction.slip_m);
+  for (const SlipOnFriction& w : friction.walked)
+    text += fmt::format("{} {:.1f} mm on {:.2f}", &w == friction.walked.data() ? "" : ",",
+                        1e3 * w.slip_m, w.friction);
+  return text + (friction.value
+                     ? ".\n"
+                     : ".\n# That does not tell frictions apart: this is the preset's.\n");
+}
+
+std::string DraftTerrain(const fs::path& out, const std::vector<TerrainPreset>& presets,
+                         const WalkSummary& walk, const fs::path& terrains,
+                         const Friction& friction) {
+  const std::string substrate =
+      friction.value ? fmt::format(", substrate: {{friction: {:.2f}}}", *friction.value) : "";
   if (presets.empty())
     return "# Not known: the footholds are too few to tell the ground. This one is level.\n" +
-           fmt::format("terrain: {{base: {}}}\n",
-                       From(options.out, options.terrains / "flat.yaml"));
+           DraftFriction(friction) +
+           fmt::format("terrain: {{base: {}{}}}\n", From(out, terrains / "flat.yaml"), substrate);
   std::string text = fmt::format(
       "# A guess: nearest of {} presets to the footholds, the plainest of those that are equally "
       "near. Footholds differ in\n# height by {:.0f} mm at {} m and {:.0f} mm at {} m;",
-      presets.size(), 1e3 * *walk.roughness.Nu_m(kShort_m), kShort_m,
-      1e3 * *walk.roughness.Nu_m(kLong_m), kLong_m);
+      presets.size(), 1e3 * *walk.roughness.Nu_m(kShortLag_m), kShortLag_m,
+      1e3 * *walk.roughness.Nu_m(kLongLag_m), kLongLag_m);
   for (std::size_t i = 0; i < std::min<std::size_t>(3, presets.size()); ++i)
     text += fmt::format(" {}: {:.0f} and {:.0f} mm{}", presets[i].file.stem().string(),
                         1e3 * presets[i].nu_short_m, 1e3 * presets[i].nu_long_m,
                         i + 1 < std::min<std::size_t>(3, presets.size()) ? "," : ".");
-  return text + "\n# Not known: slope, rocks, friction and stiffness, which are the preset's.\n" +
-         fmt::format("terrain: {{base: {}, roughness_scale: {:.2f}}}\n",
-                     From(options.out, presets.front().file), presets.front().scale);
+  return text + "\n# Not known: slope, rocks and stiffness, which are the preset's.\n" +
+         DraftFriction(friction) +
+         fmt::format("terrain: {{base: {}, roughness_scale: {:.2f}{}}}\n",
+                     From(out, presets.front().file), presets.front().scale, substrate);
 }
 
 std::string DraftOperator(const WalkSummary& walk) {
   std::string text =
       walk.commanded ? "# By the log's commands, means over 0.25 s.\n"
                      : "# The log holds no commands: these are the velocities that were walked.\n";
-  text += "operator:\n  type: velocity\n  steps:\n";
+  text +=
+      "# Headings are those that were walked: the ground of a twin turns it otherwise.\n"
+      "operator:\n  type: velocity\n  steps:\n";
   for (const HeldVelocity& v : walk.velocities)
-    text +=
-        fmt::format("    - {{at_s: {:.2f}, v_x_mps: {:.4f}, v_y_mps: {:.4f}, w_z_radps: {:.4f}}}\n",
-                    v.at_s, v.v_x_mps, v.v_y_mps, v.w_z_radps);
+    text += fmt::format(
+        "    - {{at_s: {:.2f}, v_x_mps: {:.4f}, v_y_mps: {:.4f}, w_z_radps: {:.4f}, heading_rad: "
+        "{:.3f}}}\n",
+        v.at_s, v.v_x_mps, v.v_y_mps, v.w_z_radps, v.heading_rad);
   return text;
 }
 
@@ -169,11 +123,11 @@ std::string DraftGait(const WalkSummary& walk) {
       gait.period_s, gait.duty, gait.offset[0], gait.offset[1], gait.offset[2], gait.offset[3]);
 }
 
-std::string DraftController(const DraftScenarioOptions& options, const LogInputs& inputs,
-                            const WalkSummary& walk) {
+std::string DraftController(const fs::path& out, const DraftScenarioOptions& options,
+                            const LogInputs& inputs, const WalkSummary& walk) {
   std::string text = "# Not known: gains and weights, which are the defaults.\ncontroller:\n";
   const fs::path base = options.controllers / (inputs.robot.config.name + ".yaml");
-  if (fs::exists(base)) text += fmt::format("  base: {}\n", From(options.out, base));
+  if (fs::exists(base)) text += fmt::format("  base: {}\n", From(out, base));
   text += DraftGait(walk);
   if (walk.swing_lift_m)
     text += fmt::format(
@@ -194,23 +148,53 @@ std::string DraftPayload(const LogInputs& inputs, const WalkSummary& walk) {
       std::max(0.0, *walk.mass_kg - inputs.robot.total_mass_kg()));
 }
 
-}  // namespace
+/// What a draft is made of.
+struct Findings {
+  LogInputs inputs;
+  WalkSummary walk;
+  std::vector<TerrainPreset> presets;
+  Friction friction = {};
+};
 
-std::string DraftScenario(const DraftScenarioOptions& options) {
-  const LogInputs inputs = SurveyInputs(options.input);
-  std::vector<std::string> set;
-  if (inputs.torques)
-    set = {"controller.adaptation.type=kf_plus", "controller.adaptation.tare.enabled=false"};
-  if (!inputs.accelerometer) set.emplace_back("controller.estimator.type=leg_odometry");
-  const WalkSummary walk = SummariseWalk(options.input, inputs, SetUpVariant(inputs, set).params);
+std::string DraftText(const DraftScenarioOptions& options, const Findings& found,
+                      const fs::path& out) {
+  const WalkSummary& walk = found.walk;
   std::string text =
       fmt::format("# Drafted from {}; comments say what is measured and what is not known.\n",
                   options.input.log.filename().string());
   text += fmt::format("name: twin_of_{}\n", options.input.log.stem().string());
-  text += DraftRobot(options, inputs) + DraftTerrain(options, walk);
-  text += fmt::format("duration_s: {:.1f}\n", std::max(0.1, walk.duration_s));
-  return text + DraftOperator(walk) + DraftController(options, inputs, walk) +
-         DraftPayload(inputs, walk);
+  text += DraftRobot(out, found.inputs) +
+          DraftTerrain(out, found.presets, walk, options.terrains, found.friction);
+  constexpr double kLongestBefore_s = 3.0;  // a twin does not lie about first
+  text += fmt::format("duration_s: {:.1f}\n",
+                      std::max(0.1, walk.duration_s + std::min(walk.before_s, kLongestBefore_s)));
+  return text + DraftOperator(walk) + DraftController(out, options, found.inputs, walk) +
+         DraftPayload(found.inputs, walk);
+}
+
+/// By walks of the draft without it.
+Friction FindFriction(const DraftScenarioOptions& options, const Findings& found) {
+  AnalyzeOptions how;
+  if (options.input.robot) how.robot = options.input.robot->string();
+  how.rows = options.input.rows;
+  Friction friction{SlipOf(options.input.log, how), {}, {}};
+  if (!friction.slip_m) return friction;
+  const logs::TemporaryFolder folder;
+  const fs::path draft = folder.path() / "draft.yaml";
+  core::WriteText(draft, DraftText(options, found, draft));
+  friction.walked = WalkFrictions(draft);
+  friction.value = ReadFriction(friction.walked, *friction.slip_m);
+  return friction;
+}
+
+}  // namespace
+
+std::string DraftScenario(const DraftScenarioOptions& options) {
+  Findings found{SurveyInputs(options.input), {}, {}};
+  found.walk = SummariseWalk(options.input, found.inputs);
+  found.presets = NearestPresets(options.terrains, found.walk.roughness);
+  if (options.walks) found.friction = FindFriction(options, found);
+  return DraftText(options, found, options.out);
 }
 
 }  // namespace scoria::app

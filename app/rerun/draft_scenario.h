@@ -13,12 +13,14 @@ struct DraftScenarioOptions {
   std::filesystem::path out;                    // paths in the text are relative to its folder
   std::filesystem::path terrains = "terrains";  // folder of the presets to choose from
   std::filesystem::path controllers = "scenarios/controllers";  // base of the controller, by robot
+  bool walks = true;  // the draft is walked on several frictions, to read that of the log
 };
 
 /// A scenario that repeats a log: its robot, its commands over time or the speeds that were walked,
-/// its gait, and the terrain preset whose deviogram is nearest to that of the footholds. Says in
-/// comments what each is taken from, and what the log does not tell.
-/// Errors: as SurveyInputs and SetUpVariant; core::ConfigError for a preset.
+/// its headings, its gait, the terrain preset whose deviogram is nearest to that of the footholds,
+/// and the friction on which the feet of its own walks slide as much as the log's. Says in comments
+/// what each is taken from, and what the log does not tell.
+/// Errors: as SurveyInputs, SummariseWalk and WalkFrictions; core::ConfigError for a preset.
 [[nodiscard]] std::string DraftScenario(const DraftScenarioOptions& options);
 
 }  // namespace scoria::app

@@ -6,7 +6,9 @@
 #include <numbers>
 #include <utility>
 
+#include "app/episode/fall_params.h"
 #include "core/math/so3.h"
+#include "core/similarity.h"
 
 namespace scoria::app {
 namespace {
@@ -18,12 +20,21 @@ constexpr double kSlot_s = 0.25, kSame_mps = 0.02, kSame_radps = 0.03;
 /// it, so that way and turn are kept, however coarse the steps.
 class Programme {
  public:
-  void Add(double time_s, const Vec3& v_x_v_y_w_z) {
+  /// @param yaw_rad  of the estimate.
+  void Add(double time_s, const Vec3& v_x_v_y_w_z, double yaw_rad) {
+    if (yaw_rad_) turned_rad_ += core::WrapToPi(yaw_rad - *yaw_rad_);
+    yaw_rad_ = yaw_rad;
     if (slot_.count > 0 && time_s >= slot_.begin_s + kSlot_s) EndSlot();
-    if (slot_.count == 0) slot_.begin_s = time_s;
+    if (slot_.count == 0) {
+      slot_.begin_s = time_s;
+      slot_.heading_rad = turned_rad_;
+    }
     slot_.sum += v_x_v_y_w_z;
     ++slot_.count;
   }
+
+  /// The heading goes on from another one: that of another path.
+  void Break() { yaw_rad_.reset(); }
 
   [[nodiscard]] std::vector<HeldVelocity> Finish() {
     if (slot_.count > 0) EndSlot();
@@ -33,7 +44,7 @@ class Programme {
 
  private:
   struct Stretch {
-    double begin_s = 0.0;
+    double begin_s = 0.0, heading_rad = 0.0;
     Vec3 sum = Vec3::Zero();
     std::uint64_t count = 0;
     [[nodiscard]] Vec3 Mean() const { return sum / static_cast<double>(count); }
@@ -45,7 +56,10 @@ class Programme {
       if (change.x() >= kSame_mps || change.y() >= kSame_mps || change.z() >= kSame_radps)
         EndStep();
     }
-    if (step_.count == 0) step_.begin_s = slot_.begin_s;
+    if (step_.count == 0) {
+      step_.begin_s = slot_.begin_s;
+      step_.heading_rad = slot_.heading_rad;
+    }
     step_.sum += slot_.sum;
     step_.count += slot_.count;
     slot_ = {};
@@ -53,11 +67,13 @@ class Programme {
 
   void EndStep() {
     const Vec3 v = step_.Mean();
-    steps_.push_back({step_.begin_s, v.x(), v.y(), v.z()});
+    steps_.push_back({step_.begin_s, v.x(), v.y(), v.z(), step_.heading_rad});
     step_ = {};
   }
 
   Stretch slot_, step_;
+  std::optional<double> yaw_rad_;  // the last one
+  double turned_rad_ = 0.0;
   std::vector<HeldVelocity> steps_;
 };
 
@@ -153,19 +169,29 @@ class FeetMeter {
 };
 
 /// The estimate's velocity in the heading frame, and its yaw rate.
-Vec3 WalkedVelocity(const RobotState& s) {
-  const double yaw_rad = core::RpyFromRotation(s.R_WB).z();
+Vec3 WalkedVelocity(const RobotState& s, double yaw_rad) {
   const Vec3 v_H = core::RotationFromRpy({0.0, 0.0, -yaw_rad}) * s.v_WB;
   return {v_H.x(), v_H.y(), s.w_WB.z()};
 }
 
+/// Estimation with what the log has.
+VariantSetup UntaredObserver(const LogInputs& inputs) {
+  std::vector<std::string> set;
+  if (inputs.torques)
+    set = {"controller.adaptation.type=kf_plus", "controller.adaptation.tare.enabled=false"};
+  if (!inputs.accelerometer) set.emplace_back("controller.estimator.type=leg_odometry");
+  return SetUpVariant(inputs, set);
+}
+
 }  // namespace
 
-WalkSummary SummariseWalk(const LogInputOptions& options, const LogInputs& inputs,
-                          const controller::ControllerParams& params) {
+WalkSummary SummariseWalk(const LogInputOptions& options, const LogInputs& inputs) {
+  const VariantSetup setup = UntaredObserver(inputs);
   WalkSummary out;
   out.commanded = inputs.command;
-  LogObserver observer(inputs, params);
+  LogObserver observer(inputs, setup.params);
+  const double stands_s =
+      FallParams{}.stand_s * inputs.robot.similarity.Factor(core::dimension::kTime);
   Programme programme;
   GaitMeter gait;
   FeetMeter feet(out.roughness);
@@ -176,19 +202,27 @@ WalkSummary SummariseWalk(const LogInputOptions& options, const LogInputs& input
   (void)ForEachInputRow(options, [&](const logs::Row& row) {
     if (!observer.Step(row)) return;
     if (!first_s && inputs.plan && !row.plan) return;  // the walking controller is not in charge
-    if (!first_s) first_s = row.time_s;
+    if (!first_s) {
+      first_s = row.time_s;
+      out.before_s = row.time_s - inputs.first_s;
+    }
     out.duration_s = row.time_s - *first_s;
     const core::WholeBody& wb = observer.wb();
+    const double yaw_rad = core::RpyFromRotation(wb.state.R_WB).z();
+    if (observer.segment() != segment) {
+      programme.Break();
+      feet.Break();
+    }
+    segment = observer.segment();
+    const double since_s = out.duration_s - stands_s;
     if (row.command) {
       const logs::CommandRow& c = *row.command;
-      programme.Add(out.duration_s, {c.v_x_mps, c.v_y_mps, c.w_z_radps});
+      if (since_s >= 0.0) programme.Add(since_s, {c.v_x_mps, c.v_y_mps, c.w_z_radps}, yaw_rad);
       const bool moves = c.v_x_mps != 0.0 || c.v_y_mps != 0.0 || c.w_z_radps != 0.0;
       if (row.plan && moves && row.plan->period_s > 0.0) gait.Add(*row.plan);
-    } else if (!inputs.command) {
-      programme.Add(out.duration_s, WalkedVelocity(wb.state));
+    } else if (!inputs.command && since_s >= 0.0) {
+      programme.Add(since_s, WalkedVelocity(wb.state, yaw_rad), yaw_rad);
     }
-    if (observer.segment() != segment) feet.Break();
-    segment = observer.segment();
     feet.Add(wb.p_WF, observer.sensed().contact.contact);
     const controller::Adaptation& learned = observer.sensed().adaptation;
     if (learned.mass_kg <= 0.0 || row.time_s < 0.5 * (inputs.first_s + inputs.last_s)) return;

@@ -13,9 +13,11 @@
 
 namespace scoria::app {
 
-/// Velocities in the heading frame, held for a while: a step of an operator's programme.
+/// Velocities in the heading frame, held for a while: a step of an operator's programme. Its clock
+/// begins fall.stand_s after the walking controller is in charge, as an episode's.
 struct HeldVelocity {
   double at_s = 0.0, v_x_mps = 0.0, v_y_mps = 0.0, w_z_radps = 0.0;
+  double heading_rad = 0.0;  // at_s, turned since the start, as it was walked
 };
 
 /// Timing of the gait while the robot was to move.
@@ -27,8 +29,9 @@ struct GaitSummary {
 
 /// What a scenario needs to know of a walk.
 struct WalkSummary {
-  double duration_s = 0.0;
-  bool commanded = false;  // velocities are the operator's; else those walked
+  double before_s = 0.0;    // of the log, until the walking controller is in charge
+  double duration_s = 0.0;  // from then on
+  bool commanded = false;   // velocities are the operator's; else those walked
   std::vector<HeldVelocity> velocities;
   std::optional<GaitSummary> gait;  // of the log's plan
   std::optional<double>
@@ -37,9 +40,8 @@ struct WalkSummary {
   std::optional<double> mass_kg;  // learned without a tare: torques may misread
 };
 
-/// Goes over the log once, with an observer of its own.
-/// Errors: as logs::ForEachRow.
-[[nodiscard]] WalkSummary SummariseWalk(const LogInputOptions& options, const LogInputs& inputs,
-                                        const controller::ControllerParams& params);
+/// Goes over the log once, with an observer that learns the mass untared.
+/// Errors: as logs::ForEachRow and SetUpVariant.
+[[nodiscard]] WalkSummary SummariseWalk(const LogInputOptions& options, const LogInputs& inputs);
 
 }  // namespace scoria::app

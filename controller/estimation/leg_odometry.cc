@@ -2,25 +2,9 @@
 #include "controller/estimation/leg_odometry.h"
 
 #include "core/math/so3.h"
+#include "core/robot/stance_velocity.h"
 
 namespace scoria::controller {
-
-std::optional<Vec3> StanceVelocity(const core::RobotDescription& robot, const Mat3& R_WB,
-                                   const Vec3& w_WB_W, const LegArray<Vec3>& q,
-                                   const LegArray<Vec3>& qd,
-                                   const LegArray<bool>& contact) noexcept {
-  Vec3 sum_W = Vec3::Zero();
-  int standing = 0;
-  for (const Leg leg : kLegs) {
-    if (!contact[leg]) continue;
-    const core::LegKinematics foot = core::CalcLegKinematics(robot.legs[leg], q[leg]);
-    const Vec3 p_BF_W = R_WB * foot.p_BF;
-    sum_W -= w_WB_W.cross(p_BF_W) + R_WB * (foot.J * qd[leg]);
-    ++standing;
-  }
-  if (standing == 0) return std::nullopt;
-  return Vec3(sum_W / standing);
-}
 
 StateEstimate LegOdometry::Update(const EstimatorInput& in, Counters&) noexcept {
   StateEstimate out;
@@ -37,7 +21,8 @@ StateEstimate LegOdometry::Update(const EstimatorInput& in, Counters&) noexcept 
     state_.R_WB = state_.R_WB * core::ExpSo3(w_WB_B * in.imu_dt_s);
     state_.w_WB = state_.R_WB * w_WB_B;
     if (const std::optional<Vec3> v_W =
-            StanceVelocity(robot_, state_.R_WB, state_.w_WB, in.z.q, in.z.qd, in.contact.contact))
+            core::CalcStanceVelocity(robot_, state_.R_WB, state_.w_WB, in.z.q, in.z.qd,
+                                     in.contact.contact, core::StanceFoot::kStays))
       state_.v_WB = *v_W;
     state_.p_WB += in.imu_dt_s * state_.v_WB;
   }

@@ -35,12 +35,4 @@ class LegOdometry final : public StateEstimator {
   Vec3 gyro_bias_S_ = Vec3::Zero();
 };
 
-/// Velocity of B at which the standing feet's centres do not move; zero-radius feet, no slip.
-/// @param w_WB_W  rad/s, in W.    @param contact  feet that stand.
-/// @returns m/s, in W; none if no foot stands.
-[[nodiscard]] std::optional<Vec3> StanceVelocity(const core::RobotDescription& robot,
-                                                 const Mat3& R_WB, const Vec3& w_WB_W,
-                                                 const LegArray<Vec3>& q, const LegArray<Vec3>& qd,
-                                                 const LegArray<bool>& contact) noexcept;
-
 }  // namespace scoria::controller

@@ -80,6 +80,21 @@ TEST(SetComparison, LeavesOutWhatComesFromOtherSources) {
   EXPECT_EQ(found.metrics.size(), 1u);
 }
 
+TEST(SetComparison, WhatWasAskedOfAWalkIsNoDifference) {
+  const Metrics metrics = {
+      Of("yaw_rate_radps",
+         [](const EpisodeMetrics& m) { return std::optional(Measured{m.distance_m}); }),
+      Of("command_yaw_radps",
+         [](const EpisodeMetrics& m) { return std::optional(Measured{m.walking_s}); })};
+  const std::vector<ComparedWalk> a = {Walk(1.0, 0.9), Walk(1.1, 1.02)},
+                                  b = {Walk(5.0, 4.9), Walk(5.3, 5.18)};
+  const SetComparison found = CompareSets(a, b, metrics);
+  ASSERT_EQ(found.metrics.size(), 1u) << "no command is an outcome";
+  EXPECT_EQ(found.metrics[0].metric.title, "yaw rate less its command");
+  EXPECT_NEAR(found.metrics[0].samples.mean_a, 0.09, 1e-9);
+  EXPECT_NEAR(found.metrics[0].samples.mean_b, 0.11, 1e-9);
+}
+
 TEST(SetComparison, PhasesAreOnACircle) {
   Metrics metrics = {Of(
       "phase_hr", [](const EpisodeMetrics& m) { return std::optional(Measured{m.distance_m}); })};

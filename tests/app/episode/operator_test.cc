@@ -120,5 +120,43 @@ TEST(Operator, FollowsTheVelocityProgramme) {
   EXPECT_EQ(person.Update({}, 2.5, 0.01).w_z_radps, -0.3);
 }
 
+/// A robot that a slope turns by 0.2 rad/s, led for 20 s. @returns its heading's error at the end.
+double ErrorOfHeading(const VelocityProgramme& programme, double expected_rad) {
+  Operator person(programme, test::Go2(), test::FlatGround());
+  RobotState s;
+  double yaw = 1.0;
+  constexpr double kDt_s = 0.01;
+  for (int i = 0; i < 2000; ++i) {
+    s.R_WB = core::RotationZ(yaw);
+    yaw += (person.Update(s, i * kDt_s, kDt_s).w_z_radps + 0.2) * kDt_s;
+  }
+  return core::WrapToPi(yaw - 1.0 - expected_rad);
+}
+
+TEST(Operator, SteersBackToTheHeadingsOfAProgramme) {
+  VelocityProgramme programme;
+  programme.steps = {{0.0, 0.3, 0.0, 0.1}, {10.0, 0.3, 0.0, 0.1}};
+  EXPECT_GT(std::abs(ErrorOfHeading(programme, 2.0)), 2.0) << "no heading, no correction";
+  programme.steps[0].heading_rad = 0.0;
+  programme.steps[1].heading_rad = 4.0;  // over pi, and more than the command turns
+  // After the last step the heading goes on as commanded: 4 + 10 * 0.1 rad. What remains is the
+  // turn of 0.2 rad/s over the gain.
+  EXPECT_NEAR(ErrorOfHeading(programme, 5.0), 0.2 / programme.yaw_gain_per_s, 0.01);
+}
+
+TEST(Operator, CorrectsNoHeadingWhereTheRobotIsToStand) {
+  VelocityProgramme programme;
+  programme.steps = {{0.0, 0.3, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}};
+  for (VelocityStep& step : programme.steps) step.heading_rad = 0.0;
+  Operator person(programme, test::Go2(), test::FlatGround());
+  (void)person.Update({}, 0.5, 0.01);
+  RobotState turned;
+  turned.R_WB = core::RotationZ(0.5);
+  EXPECT_LT(person.Update(turned, 0.9, 0.01).w_z_radps, -0.5);
+  EXPECT_TRUE(person.Update(turned, 1.5, 0.01).IsStop());
+  person.Resume({{0.0, 0.0}, 0.5});
+  EXPECT_EQ(person.Update(turned, 0.9, 0.01).w_z_radps, 0.0) << "set down, it goes on from there";
+}
+
 }  // namespace
 }  // namespace scoria::app

@@ -6,7 +6,6 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-#include "controller/estimation/leg_odometry.h"
 #include "controller/estimation/rest_attitude.h"
 #include "controller/estimation/sample_guard.h"
 #include "controller/estimation/state_estimator.h"
@@ -182,28 +181,6 @@ INSTANTIATE_TEST_SUITE_P(Of, Estimator,
                                            EstimatorParams(LinearKfParams{}),
                                            EstimatorParams(LegOdometryParams{})),
                          EstimatorName);
-
-TEST(LegOdometry, KeepsTheStandingFeetWhereTheyAre) {
-  const core::RobotDescription robot = test::Go2();
-  RobotState state = test::StandingState();
-  state.R_WB = core::RotationFromRpy({0.1, -0.2, 0.7});
-  state.v_WB = Vec3(0.3, -0.2, 0.1);
-  state.w_WB = Vec3(0.4, 0.5, -0.6);
-  for (const Leg leg : kLegs) {  // joint speeds at which the foot stands still
-    const core::LegKinematics foot = core::CalcLegKinematics(robot.legs[leg], state.q[leg]);
-    const Vec3 v_W = state.v_WB + state.w_WB.cross(state.R_WB * foot.p_BF);
-    state.qd[leg] = foot.J.inverse() * (state.R_WB.transpose() * -v_W);
-  }
-  state.qd[Leg::kHR].setConstant(9.0);  // swings
-  LegArray<bool> contact(true);
-  contact[Leg::kHR] = false;
-  const std::optional<Vec3> v_W =
-      StanceVelocity(robot, state.R_WB, state.w_WB, state.q, state.qd, contact);
-  ASSERT_TRUE(v_W);
-  EXPECT_LT((*v_W - state.v_WB).norm(), 1e-12);
-  EXPECT_FALSE(
-      StanceVelocity(robot, state.R_WB, state.w_WB, state.q, state.qd, LegArray<bool>(false)));
-}
 
 }  // namespace
 }  // namespace scoria::controller
