@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <stdexcept>
 #include <vector>
 
 #include <fmt/format.h>
@@ -51,10 +52,13 @@ struct Friction {
   std::optional<double> slip_m;  // of the log
   std::vector<SlipOnFriction> walked;
   std::optional<double> value;
+  std::string problem;  // why there is none, in words
 };
 
 std::string DraftFriction(const Friction& friction) {
-  if (friction.walked.empty()) return "# Not known: friction, which is the preset's.\n";
+  if (friction.walked.empty())
+    return fmt::format("# Not known: friction, which is the preset's{}{}.\n",
+                       friction.problem.empty() ? "" : ": ", friction.problem);
   std::string text = fmt::format(
       "# Friction by the slip that 95 % of the stances stay below: {:.1f} mm. In walks of this "
       "draft it is\n#",
@@ -97,7 +101,8 @@ std::string DraftOperator(const WalkSummary& walk) {
                      : "# The log holds no commands: these are the velocities that were walked.\n";
   text +=
       "# Headings are those that were walked: the ground of a twin turns it otherwise.\n"
-      "operator:\n  type: velocity\n  steps:\n";
+      "operator:\n  type: velocity\n";
+  text += walk.velocities.empty() ? "  steps: []\n" : "  steps:\n";
   for (const HeldVelocity& v : walk.velocities)
     text += fmt::format(
         "    - {{at_s: {:.2f}, v_x_mps: {:.4f}, v_y_mps: {:.4f}, w_z_radps: {:.4f}, heading_rad: "
@@ -177,13 +182,23 @@ Friction FindFriction(const DraftScenarioOptions& options, const Findings& found
   AnalyzeOptions how;
   if (options.input.robot) how.robot = options.input.robot->string();
   how.rows = options.input.rows;
-  Friction friction{SlipOf(options.input.log, how), {}, {}};
-  if (!friction.slip_m) return friction;
-  const logs::TemporaryFolder folder;
-  const fs::path draft = folder.path() / "draft.yaml";
-  core::WriteText(draft, DraftText(options, found, draft));
-  friction.walked = WalkFrictions(draft);
-  friction.value = ReadFriction(friction.walked, *friction.slip_m);
+  Friction friction;
+  try {
+    friction.slip_m = SlipOf(options.input.log, how);
+    if (!friction.slip_m) {
+      friction.problem = "the log does not tell how far its feet slip";
+      return friction;
+    }
+    const logs::TemporaryFolder folder;
+    const fs::path draft = folder.path() / "draft.yaml";
+    core::WriteText(draft, DraftText(options, found, draft));
+    friction.walked = WalkFrictions(draft);
+    friction.value = ReadFriction(friction.walked, *friction.slip_m);
+    if (friction.walked.empty()) friction.problem = "the draft does not walk";
+  } catch (const std::runtime_error& e) {  // the draft is worth having all the same
+    const std::string what = e.what();
+    friction.problem = what.substr(0, what.find('\n'));
+  }
   return friction;
 }
 

@@ -20,7 +20,7 @@ struct DraftScenarioOptions {
 /// its headings, its gait, the terrain preset whose deviogram is nearest to that of the footholds,
 /// and the friction on which the feet of its own walks slide as much as the log's. Says in comments
 /// what each is taken from, and what the log does not tell.
-/// Errors: as SurveyInputs, SummariseWalk and WalkFrictions; core::ConfigError for a preset.
+/// Errors: as SurveyInputs and SummariseWalk; core::ConfigError for a preset.
 [[nodiscard]] std::string DraftScenario(const DraftScenarioOptions& options);
 
 }  // namespace scoria::app

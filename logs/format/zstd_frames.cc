@@ -53,9 +53,9 @@ class Output {
 }  // namespace
 
 bool IsZstd(std::span<const std::byte> bytes) {
-  constexpr unsigned char kMagic[] = {0x28, 0xB5, 0x2F, 0xFD};
-  return bytes.size() >= sizeof kMagic &&
-         std::ranges::equal(bytes.first(sizeof kMagic), std::as_bytes(std::span(kMagic)));
+  constexpr unsigned char kFrame[] = {0x28, 0xB5, 0x2F, 0xFD};  // RFC 8878
+  return bytes.size() >= sizeof kFrame &&
+         std::ranges::equal(bytes.first(sizeof kFrame), std::as_bytes(std::span(kFrame)));
 }
 
 std::uint64_t LargestUnpackedLog(std::uint64_t packed_size) {

@@ -39,11 +39,11 @@ TEST(FootholdRoughness, TakesNoHillForRoughness) {
 }
 
 TEST(FootholdRoughness, StretchesEndAfterTwoMetresAndAtBreaks) {
-  FootholdRoughness found = WalkOver(9, [](double, double) { return 0.0; });
+  FootholdRoughness found = WalkOver(8, [](double, double) { return 0.0; });
   EXPECT_EQ(found.Stretches().size(), 1u);
   found.Add({2.25, 0.15, 0.0});
   ASSERT_EQ(found.Stretches().size(), 2u);
-  EXPECT_EQ(found.Stretches()[0].size(), 18u);
+  EXPECT_EQ(found.Stretches()[0].size(), 16u);
   found.Break();
   found.Add({2.25, -0.15, 0.0});
   EXPECT_EQ(found.Stretches().size(), 3u);
@@ -54,10 +54,10 @@ TEST(FootholdRoughness, IsTheRootMeanSquareDifferenceAtTheLag) {
   const FootholdRoughness white =
       WalkOver(2000, [&](double, double) { return 0.02 * rng.NextNormal(); });
   EXPECT_NEAR(*white.Nu_m(0.25), 0.02 * std::sqrt(2.0), 1e-3);
-  EXPECT_NEAR(*white.Nu_m(1.0), 0.02 * std::sqrt(2.0), 3e-3) << "the plane of a stretch takes some";
+  EXPECT_NEAR(*white.Nu_m(1.0), 0.02 * std::sqrt(2.0), 4e-3) << "the plane of a stretch takes some";
   const FootholdRoughness wave =
       WalkOver(2000, [](double x, double) { return 0.05 * std::sin(2.0 * M_PI * x / 2.0); });
-  EXPECT_GT(*wave.Nu_m(1.0), 2.0 * *wave.Nu_m(0.25)) << "a wave of 2 m is smooth at 0.25 m";
+  EXPECT_GT(*wave.Nu_m(1.0), 1.5 * *wave.Nu_m(0.25)) << "a wave of 2 m is smooth at 0.25 m";
 }
 
 TEST(FootholdRoughness, DoesNotPairAcrossABreak) {
