@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "analysis/field/leg_odometry.h"
+#include "core/math/so3.h"
 #include "core/robot/whole_body.h"
 #include "logs/quality/leg_load.h"
 
@@ -44,7 +45,7 @@ FallSample FallClues::Update(const logs::Row& row, double dt_s) {
   FallSample sample{.dt_s = dt_s};
   const std::optional<Mat3> R_WB = AttitudeOf(row, robot_);
   if (!R_WB) return sample;
-  sample.tilt_rad = LeastTilt(row.time_s, std::acos(std::clamp((*R_WB)(2, 2), -1.0, 1.0)));
+  sample.tilt_rad = BelievedTilt(row, *R_WB, dt_s);
   if (robot_ == nullptr || !row.measured || !row.measured->q_rad) return sample;
   sample.height_m = HeightOverFeet(*robot_, *row.measured->q_rad, *R_WB);
   const std::optional<double> feet_N = FeetForce(row, *R_WB);
@@ -63,14 +64,24 @@ FallSample FallClues::Update(const logs::Row& row, double dt_s) {
   return sample;
 }
 
-double FallClues::LeastTilt(double time_s, double tilt_rad) {
-  const bool known = !tilts_.empty() && time_s - tilts_.front().first >= kTilt_s;
-  tilts_.emplace_back(time_s, tilt_rad);
-  while (tilts_.size() > 2 && time_s - tilts_[1].first >= kTilt_s) tilts_.pop_front();
+double FallClues::UnexplainedTurn(const logs::Row& row, const Mat3& R_WB, double dt_s) const {
+  const std::optional<Vec3> w_WB_B = RateOf(row, robot_);
+  if (!last_R_WB_ || !w_WB_B) return HUGE_VAL;
+  const Mat3 R_expected = *last_R_WB_ * core::ExpSo3(dt_s * *w_WB_B);
+  return core::LogSo3(R_expected.transpose() * R_WB).norm();
+}
+
+double FallClues::BelievedTilt(const logs::Row& row, const Mat3& R_WB, double dt_s) {
+  const double tilt_rad = std::acos(std::clamp(R_WB(2, 2), -1.0, 1.0));
+  const bool known = !tilts_.empty() && row.time_s - tilts_.front().time_s >= kTilt_s;
+  tilts_.push_back({row.time_s, tilt_rad, UnexplainedTurn(row, R_WB, dt_s)});
+  last_R_WB_ = R_WB;
+  while (tilts_.size() > 2 && row.time_s - tilts_[1].time_s >= kTilt_s) tilts_.pop_front();
   if (!known) return 0.0;  // of a first moment nothing is told
-  double least_rad = tilt_rad;
-  for (const auto& [at_s, rad] : tilts_) least_rad = std::min(least_rad, rad);
-  return least_rad;
+  double least_rad = tilt_rad, unexplained_rad = 0.0;
+  for (std::size_t k = 1; k < tilts_.size(); ++k) unexplained_rad += tilts_[k].unexplained_rad;
+  for (const Tilt& tilt : tilts_) least_rad = std::min(least_rad, tilt.tilt_rad);
+  return unexplained_rad < kAgrees_rad ? tilt_rad : least_rad;
 }
 
 /// Nothing until the usual load is known.

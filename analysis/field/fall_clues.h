@@ -3,7 +3,6 @@
 
 #include <deque>
 #include <optional>
-#include <utility>
 
 #include "analysis/signals/falls.h"
 #include "core/robot/description.h"
@@ -19,10 +18,11 @@ namespace scoria::analysis {
 ///
 /// Two things look like a fall and are none: an attitude that is wrong for a moment, and knees or
 /// shanks that touch the ground in place of the feet. So the tilt is the least of the last kTilt_s,
-/// and a load is of the trunk only where that is lower than kLow of its nominal height.
+/// unless the gyroscope tells the same turns within kAgrees_rad, and a load is of the trunk only
+/// where that is lower than kLow of its nominal height.
 class FallClues {
  public:
-  static constexpr double kTilt_s = 0.03, kLow = 0.6;
+  static constexpr double kTilt_s = 0.03, kAgrees_rad = 0.1, kLow = 0.6;
   static constexpr double kLoad_s = 0.1, kUsual_s = 10.0;
 
   /// @param robot    borrowed; null: only the tilt is told.
@@ -36,17 +36,24 @@ class FallClues {
   /// The robot was placed, or rows are missing.
   void Reset() noexcept {
     load_N_.reset();
+    last_R_WB_.reset();
     tilts_.clear();
   }
 
  private:
-  [[nodiscard]] double LeastTilt(double time_s, double tilt_rad);
+  struct Tilt {
+    double time_s = 0.0, tilt_rad = 0.0;
+    double unexplained_rad = 0.0;  // turn since the row before that the gyroscope does not tell
+  };
+  [[nodiscard]] double BelievedTilt(const logs::Row& row, const Mat3& R_WB, double dt_s);
+  [[nodiscard]] double UnexplainedTurn(const logs::Row& row, const Mat3& R_WB, double dt_s) const;
   [[nodiscard]] std::optional<double> FeetForce(const logs::Row& row, const Mat3& R_WB) const;
   [[nodiscard]] std::optional<double> WithoutUsual(double load_N, double dt_s);
 
   const core::RobotDescription* robot_;
   double mass_kg_, gravity_mps2_;
-  std::deque<std::pair<double, double>> tilts_;  // time, tilt, of the last kTilt_s
+  std::deque<Tilt> tilts_;  // of the last kTilt_s
+  std::optional<Mat3> last_R_WB_;
   std::optional<double> load_N_;
   double usual_N_ = 0.0, seen_s_ = 0.0;  // of loads by torques
 };

@@ -7,6 +7,7 @@
 
 #include "analysis/field/leg_odometry.h"
 #include "core/math/so3.h"
+#include "core/robot/stance_velocity.h"
 #include "logs/vectors.h"
 
 namespace scoria::analysis {
@@ -35,6 +36,8 @@ void FieldRows::Add(const logs::Row& row) {
 void FieldRows::Finish() {
   if (waiting_) Complete(std::move(*waiting_), nullptr);
   waiting_.reset();
+  smoother_.Finish();
+  HandOnSmoothed();
 }
 
 /// The robot was set down elsewhere, or rows are missing.
@@ -73,7 +76,6 @@ void FieldRows::Complete(logs::Row row, const logs::Row* after) {
     }
     clues_.Reset();
     before_.reset();
-    v_legs_W_.setZero();
   }
   const double dt_s = placed || !last_.time_s ? 0.0 : row.time_s - *last_.time_s;
   const std::optional<logs::Array12> qd_radps = SpeedsAt(row, after);
@@ -93,13 +95,33 @@ void FieldRows::Complete(logs::Row row, const logs::Row* after) {
   before_.reset();
   if (last_.q_rad) before_ = {row.time_s, *last_.q_rad};
   FillContacts(row);
-  FillMotion(row, qd_radps, dt_s);
-  FillTrueContacts(row);
-  FillMass(row);
   FillEnergy(row, qd_radps, dt_s);
   if (!row.episode) row.episode = {rows_, operating, fallen_ || stopped_, segment_};
   ++rows_;
-  on_row_(row, logs::GroupsOf(row) & ~had);
+  Held held{std::move(row), had, qd_radps, dt_s};
+  if (setup_.odometry != Odometry::kLegs || setup_.robot == nullptr) {
+    HandOn(std::move(held), std::nullopt);
+    return;
+  }
+  if (placed) smoother_.Finish();
+  smoother_.Add(CalcVelocityClue(*setup_.robot, held.row, qd_radps, setup_.gravity_mps2));
+  held_.push_back(std::move(held));
+  HandOnSmoothed();
+}
+
+void FieldRows::HandOnSmoothed() {
+  for (const Vec3& v_WS : smoother_.Take()) {
+    HandOn(std::move(held_.front()), v_WS);
+    held_.pop_front();
+  }
+}
+
+/// @param v_WS  of the IMU, where the legs tell the motion.
+void FieldRows::HandOn(Held held, const std::optional<Vec3>& v_WS) {
+  FillMotion(held.row, v_WS, held.dt_s);
+  FillTrueContacts(held.row, held.qd_radps);
+  FillMass(held.row);
+  on_row_(held.row, logs::GroupsOf(held.row) & ~held.had);
 }
 
 std::optional<FallVerdict> FieldRows::LabelNear(double time_s) const {
@@ -165,34 +187,42 @@ std::optional<logs::Array12> FieldRows::SpeedsAt(const logs::Row& row,
                              after->time_s - before_->first);
 }
 
-void FieldRows::FillMotion(logs::Row& row, const std::optional<logs::Array12>& qd_radps,
-                           double dt_s) {
-  if (row.truth || setup_.odometry == Odometry::kTruth) return;
-  logs::TruthRow truth;
+void FieldRows::FillMotion(logs::Row& row, const std::optional<Vec3>& v_WS, double dt_s) {
+  if (row.truth) return;
+  std::optional<logs::TruthRow> truth;
   if (setup_.odometry == Odometry::kEstimate && row.estimate) {
-    truth.p_WB_m = row.estimate->p_WB_m;
-    truth.v_WB_mps = row.estimate->v_WB_mps;
-    truth.rpy_rad = row.estimate->rpy_rad;
-  } else if (setup_.odometry == Odometry::kLegs && setup_.robot != nullptr && qd_radps) {
-    const std::optional<Mat3> R_WB = AttitudeOf(row, setup_.robot);
-    const std::optional<Vec3> v_WB = CalcLegVelocity(*setup_.robot, row, *qd_radps);
-    if (!R_WB) return;
-    if (v_WB) v_legs_W_ = *v_WB;  // in flight it moves on as it was
-    p_legs_W_ += dt_s * v_legs_W_;
-    truth.p_WB_m = logs::ToArray(p_legs_W_);
-    truth.v_WB_mps = logs::ToArray(v_legs_W_);
-    truth.rpy_rad = logs::ToArray(core::RpyFromRotation(*R_WB));
-  } else {
-    return;
+    truth.emplace().p_WB_m = row.estimate->p_WB_m;
+    truth->v_WB_mps = row.estimate->v_WB_mps;
+    truth->rpy_rad = row.estimate->rpy_rad;
+  } else if (v_WS) {
+    truth = MotionByLegs(row, *v_WS, dt_s);
   }
-  const Mat3 R_WB = core::RotationFromRpy(logs::ToVec3(truth.rpy_rad));
+  if (!truth) return;
+  const Mat3 R_WB = core::RotationFromRpy(logs::ToVec3(truth->rpy_rad));
   if (const std::optional<Vec3> w_WB_B = RateOf(row, setup_.robot)) {
-    truth.w_WB_radps = logs::ToArray(R_WB * *w_WB_B);
+    truth->w_WB_radps = logs::ToArray(R_WB * *w_WB_B);
   } else if (last_R_WB_ && dt_s > 0.0) {
-    truth.w_WB_radps = logs::ToArray(core::LogSo3(R_WB * last_R_WB_->transpose()) / dt_s);
+    truth->w_WB_radps = logs::ToArray(core::LogSo3(R_WB * last_R_WB_->transpose()) / dt_s);
   }
   last_R_WB_ = R_WB;
   row.truth = truth;
+}
+
+/// Where it was set down is where its own estimate begins, if it has one.
+std::optional<logs::TruthRow> FieldRows::MotionByLegs(const logs::Row& row, const Vec3& v_WS,
+                                                      double dt_s) {
+  const std::optional<Mat3> R_WB = AttitudeOf(row, setup_.robot);
+  if (!R_WB) return std::nullopt;
+  Vec3 v_WB = v_WS;
+  if (const std::optional<Vec3> w_WB_B = RateOf(row, setup_.robot))
+    v_WB -= *R_WB * w_WB_B->cross(setup_.robot->p_BS);
+  p_legs_W_ += dt_s * v_WB;
+  if (dt_s == 0.0 && row.estimate) p_legs_W_ = logs::ToVec3(row.estimate->p_WB_m);
+  logs::TruthRow truth;
+  truth.p_WB_m = logs::ToArray(p_legs_W_);
+  truth.v_WB_mps = logs::ToArray(v_WB);
+  truth.rpy_rad = logs::ToArray(core::RpyFromRotation(*R_WB));
+  return truth;
 }
 
 void FieldRows::FillContacts(logs::Row& row) {
@@ -202,25 +232,51 @@ void FieldRows::FillContacts(logs::Row& row) {
   for (const Leg leg : kLegs) contacts.contact[static_cast<std::size_t>(leg)] = loaded[leg];
 }
 
-void FieldRows::FillTrueContacts(logs::Row& row) const {
+void FieldRows::FillTrueContacts(logs::Row& row,
+                                 const std::optional<logs::Array12>& qd_radps) const {
   if (row.true_contacts || !row.contacts) return;
-  row.true_contacts.emplace().contact = row.contacts->contact;
-  if (row.contacts->f_F_W_N && setup_.mass_kg) {
-    // As the simulator says of true contacts, a little more for the noise of an estimate.
-    constexpr double kContact_N = 7.0, kOfMass_kg = 15.0;
-    const double least_N = kContact_N * *setup_.mass_kg / kOfMass_kg;
-    for (std::size_t leg = 0; leg < kLegs.size(); ++leg)
-      row.true_contacts->contact[leg] = (*row.contacts->f_F_W_N)[3 * leg + 2] > least_N;
+  logs::TrueContactsRow& contacts = row.true_contacts.emplace();
+  contacts.contact = row.contacts->contact;
+  const FeetMotion feet = CalcFeetMotion(row, qd_radps);
+  contacts.p_WF_m = feet.p_WF_m;
+  if (!row.contacts->f_F_W_N || !setup_.mass_kg) return;
+  for (const Leg leg : kLegs) {
+    const auto k = static_cast<std::size_t>(leg);
+    contacts.contact[k] = (*row.contacts->f_F_W_N)[3 * k + 2] > LeastForce(feet.speed_mps[leg]);
   }
-  if (setup_.robot == nullptr || !row.truth || !row.measured || !row.measured->q_rad) return;
-  const LegArray<Vec3> q = Unflatten(*row.measured->q_rad);
+}
+
+FieldRows::FeetMotion FieldRows::CalcFeetMotion(
+    const logs::Row& row, const std::optional<logs::Array12>& qd_radps) const {
+  FeetMotion feet;
+  if (setup_.robot == nullptr || !row.truth || !row.measured || !row.measured->q_rad) return feet;
+  const core::RobotDescription& robot = *setup_.robot;
   const Mat3 R_WB = core::RotationFromRpy(logs::ToVec3(row.truth->rpy_rad));
+  const LegArray<Vec3> q = Unflatten(*row.measured->q_rad);
   LegArray<Vec3> p_WF = ZeroPerLeg();
   for (const Leg leg : kLegs) {
     p_WF[leg] = logs::ToVec3(row.truth->p_WB_m) +
-                R_WB * core::CalcLegKinematics(setup_.robot->legs[leg], q[leg]).p_BF;
+                R_WB * core::CalcLegKinematics(robot.legs[leg], q[leg]).p_BF;
+    if (!qd_radps) continue;
+    const Vec3 v_rolling =
+        core::CalcFootStanceVelocity(robot.legs[leg], R_WB, logs::ToVec3(row.truth->w_WB_radps),
+                                     q[leg], Unflatten(*qd_radps)[leg], core::StanceFoot::kRolls);
+    feet.speed_mps[leg] = (logs::ToVec3(row.truth->v_WB_mps) - v_rolling).norm();
   }
-  row.true_contacts->p_WF_m = Flatten(p_WF);
+  feet.p_WF_m = Flatten(p_WF);
+  return feet;
+}
+
+/// Vertical force above which a foot stands, N: of one at rest, or rolling, what the simulator says
+/// of true contacts; in motion a leg's own acceleration reads as force.
+/// @param speed_mps  of the foot against one that rolls; none: not known.
+double FieldRows::LeastForce(const std::optional<double>& speed_mps) const {
+  constexpr double kRests_N = 5.0, kMoves_N = 15.0, kUnknown_N = 7.0, kOfMass_kg = 15.0;
+  constexpr double kRests = 0.3;  // of √(g h): 0.5 m/s of a Go2
+  const double scale = *setup_.mass_kg / kOfMass_kg;
+  if (!speed_mps) return scale * kUnknown_N;
+  const double rests_mps = kRests * std::sqrt(setup_.gravity_mps2 * NominalHeight(setup_.robot));
+  return scale * (*speed_mps < rests_mps ? kRests_N : kMoves_N);
 }
 
 void FieldRows::FillMass(logs::Row& row) {

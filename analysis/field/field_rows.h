@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <deque>
 #include <functional>
 #include <optional>
 #include <string_view>
@@ -10,6 +11,7 @@
 
 #include "analysis/field/fall_clues.h"
 #include "analysis/field/joint_speed.h"
+#include "analysis/field/velocity_smoother.h"
 #include "analysis/signals/falls.h"
 #include "core/robot/description.h"
 #include "core/robot/whole_body.h"
@@ -19,7 +21,7 @@
 namespace scoria::analysis {
 
 /// Whose account of the trunk's way is taken: motion capture or GPS, the robot's own estimate, or
-/// its legs (feet in contact do not slip) with the attitude of the IMU.
+/// its legs with the accelerometer (VelocitySmoother).
 enum class Odometry { kNone, kTruth, kEstimate, kLegs };
 
 /// What somebody who was there says of a moment.
@@ -58,7 +60,8 @@ struct FieldSetup {
 /// (truth), contacts (by the torques of the legs, where the log has none; true_contacts, with the
 /// feet's places by kinematics), mass (true_mass), and energy (energy; electrical by the robot's
 /// motor parameters, battery by voltage and current). What a log has of these is left as it is. A
-/// row is handed on when the next one has come.
+/// row is handed on when the next one has come; where the legs tell the motion, when its block of
+/// VelocitySmoother has.
 class FieldRows {
  public:
   /// @param stand_ins  the groups that were not in the log.
@@ -86,6 +89,18 @@ class FieldRows {
     std::optional<Vec3> p_WB, v_WB;
     std::optional<logs::Array12> q_rad;
   };
+  /// A row whose motion is not known yet.
+  struct Held {
+    logs::Row row;
+    logs::RowGroups had;
+    std::optional<logs::Array12> qd_radps;
+    double dt_s = 0.0;  // since the row before; 0 if the robot was placed
+  };
+  /// Places of the feet, and how fast they move against feet that roll.
+  struct FeetMotion {
+    std::optional<logs::Array12> p_WF_m;
+    LegArray<std::optional<double>> speed_mps;
+  };
   void Complete(logs::Row row, const logs::Row* after);
   [[nodiscard]] bool IsNewPlace(const logs::Row& row) const;
   void FindFall(const logs::Row& row, double dt_s, bool operating);
@@ -94,9 +109,16 @@ class FieldRows {
   void Count(const logs::Row& row, std::string cause);
   [[nodiscard]] std::optional<logs::Array12> SpeedsAt(const logs::Row& row,
                                                       const logs::Row* after) const;
-  void FillMotion(logs::Row& row, const std::optional<logs::Array12>& qd_radps, double dt_s);
+  void HandOnSmoothed();
+  void HandOn(Held held, const std::optional<Vec3>& v_WS);
+  void FillMotion(logs::Row& row, const std::optional<Vec3>& v_WS, double dt_s);
+  [[nodiscard]] std::optional<logs::TruthRow> MotionByLegs(const logs::Row& row, const Vec3& v_WS,
+                                                           double dt_s);
   void FillContacts(logs::Row& row);
-  void FillTrueContacts(logs::Row& row) const;
+  void FillTrueContacts(logs::Row& row, const std::optional<logs::Array12>& qd_radps) const;
+  [[nodiscard]] FeetMotion CalcFeetMotion(const logs::Row& row,
+                                          const std::optional<logs::Array12>& qd_radps) const;
+  [[nodiscard]] double LeastForce(const std::optional<double>& speed_mps) const;
   [[nodiscard]] bool IsUpright(const logs::Row& row) const;
   void FillMass(logs::Row& row);
   void FillEnergy(logs::Row& row, const std::optional<logs::Array12>& qd_radps, double dt_s);
@@ -118,7 +140,9 @@ class FieldRows {
   std::size_t next_label_ = 0;
   std::vector<FallEvent> falls_;
   std::optional<Mat3> last_R_WB_;
-  Vec3 p_legs_W_ = Vec3::Zero(), v_legs_W_ = Vec3::Zero();
+  VelocitySmoother smoother_;
+  std::deque<Held> held_;  // for velocities that it has not told
+  Vec3 p_legs_W_ = Vec3::Zero();
   logs::EnergyRow energy_;
   EnergyCover cover_;
 };

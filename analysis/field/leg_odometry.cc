@@ -25,16 +25,26 @@ std::optional<Vec3> RateOf(const logs::Row& row, const core::RobotDescription* r
               logs::ToVec3(row.truth->w_WB_radps));
 }
 
-std::optional<Vec3> CalcLegVelocity(const core::RobotDescription& robot, const logs::Row& row,
-                                    const logs::Array12& qd_radps) {
+VelocityClue CalcVelocityClue(const core::RobotDescription& robot, const logs::Row& row,
+                              const std::optional<logs::Array12>& qd_radps, double gravity_mps2) {
+  VelocityClue clue{.time_s = row.time_s};
   const std::optional<Mat3> R_WB = AttitudeOf(row, &robot);
+  if (!R_WB || !row.measured) return clue;
+  if (row.measured->a_WS_S_mps2) {
+    const Vec3 a_WS_S = logs::ToVec3(*row.measured->a_WS_S_mps2);
+    clue.a_WS = *R_WB * (robot.R_BS * a_WS_S) - gravity_mps2 * Vec3::UnitZ();
+  }
   const std::optional<Vec3> w_WB_B = RateOf(row, &robot);
-  if (!R_WB || !w_WB_B || !row.contacts || !row.measured || !row.measured->q_rad)
-    return std::nullopt;
-  LegArray<bool> contact;
-  for (const Leg leg : kLegs) contact[leg] = row.contacts->contact[static_cast<std::size_t>(leg)];
-  return core::CalcStanceVelocity(robot, *R_WB, *R_WB * *w_WB_B, Unflatten(*row.measured->q_rad),
-                                  Unflatten(qd_radps), contact, core::StanceFoot::kRolls);
+  if (!w_WB_B || !row.contacts || !row.measured->q_rad || !qd_radps) return clue;
+  const Vec3 w_WB_W = *R_WB * *w_WB_B;
+  const LegArray<Vec3> q = Unflatten(*row.measured->q_rad), qd = Unflatten(*qd_radps);
+  for (const Leg leg : kLegs) {
+    if (!row.contacts->contact[static_cast<std::size_t>(leg)]) continue;
+    const Vec3 v_WB = core::CalcFootStanceVelocity(robot.legs[leg], *R_WB, w_WB_W, q[leg], qd[leg],
+                                                   core::StanceFoot::kRolls);
+    clue.v_WS[leg] = v_WB + w_WB_W.cross(*R_WB * robot.p_BS);
+  }
+  return clue;
 }
 
 }  // namespace scoria::analysis

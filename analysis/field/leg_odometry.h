@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "analysis/field/velocity_smoother.h"
 #include "core/robot/description.h"
 #include "logs/row.h"
 
@@ -16,12 +17,13 @@ namespace scoria::analysis {
 /// Angular velocity of the trunk in B by the gyroscope, or the truth.
 [[nodiscard]] std::optional<Vec3> RateOf(const logs::Row& row, const core::RobotDescription* robot);
 
-/// Velocity of the trunk in W that its feet in contact tell, as if they rolled on the ground and
-/// none slipped (core::CalcStanceVelocity). Nothing without joints, contacts, attitude or rate, or
-/// without a foot in contact.
+/// What its legs and its IMU tell of the velocity of the IMU: feet in contact roll as spheres on
+/// level ground and do not slip. No feet without joints, contacts, attitude and rate; no
+/// acceleration without attitude.
 /// @param qd_radps  speeds of the joints.
-[[nodiscard]] std::optional<Vec3> CalcLegVelocity(const core::RobotDescription& robot,
-                                                  const logs::Row& row,
-                                                  const logs::Array12& qd_radps);
+[[nodiscard]] VelocityClue CalcVelocityClue(const core::RobotDescription& robot,
+                                            const logs::Row& row,
+                                            const std::optional<logs::Array12>& qd_radps,
+                                            double gravity_mps2);
 
 }  // namespace scoria::analysis

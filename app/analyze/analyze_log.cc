@@ -24,13 +24,25 @@ bool Has(const logs::RowGroups& groups, RowGroup group) {
   return groups[static_cast<std::size_t>(group)];
 }
 
-Odometry ChooseOdometry(const RowsSurvey& survey, bool has_robot) {
+bool IsMost(std::uint64_t rows, const RowsSurvey& survey) {
   constexpr double kMostRows = 0.9;
-  if (static_cast<double>(survey.with_truth) > kMostRows * static_cast<double>(survey.rows))
-    return Odometry::kTruth;
+  return static_cast<double>(rows) > kMostRows * static_cast<double>(survey.rows);
+}
+
+/// Legs and accelerometer come before the robot's own estimate where the log has contacts, unless
+/// what is measured is wrong all through.
+Odometry ChooseOdometry(const RowsSurvey& survey, bool has_robot) {
+  if (IsMost(survey.with_truth, survey)) return Odometry::kTruth;
+  const bool is_wrong =
+      std::any_of(survey.findings.begin(), survey.findings.end(), [](const logs::Finding& finding) {
+        return finding.severity == logs::Severity::kError && finding.spans.empty() &&
+               Has(finding.spoils, RowGroup::kMeasured);
+      });
+  const bool has_contacts = Has(survey.groups, RowGroup::kContacts);
+  if (has_robot && has_contacts && IsMost(survey.with_motion, survey) && !is_wrong)
+    return Odometry::kLegs;
   if (Has(survey.groups, RowGroup::kEstimate)) return Odometry::kEstimate;
-  const bool has_contacts = Has(survey.groups, RowGroup::kContacts) || survey.has_torque;
-  return has_robot && has_contacts ? Odometry::kLegs : Odometry::kNone;
+  return has_robot && (has_contacts || survey.has_torque) ? Odometry::kLegs : Odometry::kNone;
 }
 
 JointSpeed SpeedOf(const RowsSurvey& survey) {
@@ -59,9 +71,10 @@ analysis::Substitutes Describe(const analysis::FieldSetup& setup, const RowsSurv
                                const logs::RowGroups& stand_ins, const std::string& mass) {
   const bool by_torque = Has(stand_ins, RowGroup::kContacts);
   const bool by_force = survey.has_foot_forces && setup.mass_kg;
-  const std::string contacts = by_torque  ? "contacts by the torques of the legs"
-                               : by_force ? "contacts by the forces of the feet as the log has them"
-                                          : "contacts as the log has them";
+  const std::string fused =
+      by_torque ? "contacts by the torques of the legs" : "contacts as the log has them";
+  const std::string contacts =
+      by_force && !by_torque ? "contacts by the forces of the feet as the log has them" : fused;
   analysis::Substitutes all;
   all[RowGroup::kEpisode] = fmt::format(
       "walking is {}the robot has not fallen; falls by tilt, height over the feet, and "
@@ -70,8 +83,10 @@ analysis::Substitutes Describe(const analysis::FieldSetup& setup, const RowsSurv
   all[RowGroup::kTruth] =
       setup.odometry == Odometry::kEstimate
           ? "motion of the trunk by the robot's own estimate"
-          : fmt::format("motion of the trunk by its legs (feet in contact do not slip), {}",
-                        contacts);
+          : fmt::format(
+                "motion of the trunk by its legs (feet in contact roll; those that slip "
+                "lose their weight){}, {}",
+                survey.with_motion > 0 ? " and the accelerometer" : "", fused);
   all[RowGroup::kTrueContacts] = contacts;
   all[RowGroup::kTrueMass] = mass;
   all[RowGroup::kEnergy] = fmt::format("measured torques with {}; battery: voltage times current",

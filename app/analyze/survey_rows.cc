@@ -27,6 +27,8 @@ class RowSurveyor {
     survey_.has_foot_forces |= row.contacts && row.contacts->f_F_W_N;
     delays_.Add(row);
     if (!row.measured) return;
+    if (row.measured->q_rad && row.measured->w_WS_S_radps && row.measured->a_WS_S_mps2)
+      ++survey_.with_motion;
     survey_.has_torque |= row.measured->tau_Nm.has_value();
     survey_.has_speed |= row.measured->qd_radps.has_value();
   }

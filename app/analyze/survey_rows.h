@@ -22,6 +22,7 @@ struct RowsSurvey {
   double first_s = 0.0, last_s = 0.0, median_step_s = 0.0;
   logs::RowGroups groups;                           // that any row has
   std::uint64_t with_truth = 0;                     // rows
+  std::uint64_t with_motion = 0;                    // rows with joint angles, rate and acceleration
   bool has_foot_forces = false;                     // as the log estimates them, in any row
   bool has_torque = false, has_speed = false;       // of the joints, in any row
   std::optional<double> speed_lag_s, torque_lag_s;  // see analysis::JointDelays

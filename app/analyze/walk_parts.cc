@@ -37,7 +37,7 @@ void WalkParts::AddRow(const logs::Row& row, const logs::RowGroups& stand_ins,
   current_ = key;
   analysis::MetricsAccumulator& part = parts_.try_emplace(key, gravity_mps2_).first->second;
   part.AddRow(row, stand_ins);
-  for (; falls_seen_ < falls.size(); ++falls_seen_) {
+  for (; falls_seen_ < falls.size() && falls[falls_seen_].time_s <= row.time_s; ++falls_seen_) {
     part.AddFall(falls[falls_seen_]);
     ++falls_[key];
   }

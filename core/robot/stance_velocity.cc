@@ -17,6 +17,15 @@ Vec3 ShankRate(const Vec3& q, const Vec3& qd) {
 
 }  // namespace
 
+Vec3 CalcFootStanceVelocity(const LegDescription& leg, const Mat3& R_WB, const Vec3& w_WB_W,
+                            const Vec3& q, const Vec3& qd, StanceFoot foot) noexcept {
+  const LegKinematics at = CalcLegKinematics(leg, q);
+  const Vec3 v_WB = -(w_WB_W.cross(R_WB * at.p_BF) + R_WB * (at.J * qd));
+  if (foot == StanceFoot::kStays) return v_WB;
+  const Vec3 w_shank_W = w_WB_W + R_WB * ShankRate(q, qd);
+  return v_WB + w_shank_W.cross(leg.foot_radius_m * Vec3::UnitZ());
+}
+
 std::optional<Vec3> CalcStanceVelocity(const RobotDescription& robot, const Mat3& R_WB,
                                        const Vec3& w_WB_W, const LegArray<Vec3>& q,
                                        const LegArray<Vec3>& qd, const LegArray<bool>& contact,
@@ -25,13 +34,7 @@ std::optional<Vec3> CalcStanceVelocity(const RobotDescription& robot, const Mat3
   int standing = 0;
   for (const Leg leg : kLegs) {
     if (!contact[leg]) continue;
-    const LegKinematics at = CalcLegKinematics(robot.legs[leg], q[leg]);
-    const Vec3 p_BF_W = R_WB * at.p_BF;
-    sum_W -= w_WB_W.cross(p_BF_W) + R_WB * (at.J * qd[leg]);
-    if (foot == StanceFoot::kRolls) {
-      const Vec3 w_shank_W = w_WB_W + R_WB * ShankRate(q[leg], qd[leg]);
-      sum_W += w_shank_W.cross(robot.legs[leg].foot_radius_m * Vec3::UnitZ());
-    }
+    sum_W += CalcFootStanceVelocity(robot.legs[leg], R_WB, w_WB_W, q[leg], qd[leg], foot);
     ++standing;
   }
   if (standing == 0) return std::nullopt;

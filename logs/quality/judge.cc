@@ -21,7 +21,7 @@ namespace {
 QualityChecks MakeChecks(const LogSubject& subject) {
   QualityChecks checks;
   checks.push_back(std::make_unique<ClockCheck>(subject));
-  checks.push_back(std::make_unique<SensorCheck>());
+  checks.push_back(std::make_unique<SensorCheck>(subject));
   checks.push_back(std::make_unique<RateCheck>(subject));
   checks.push_back(std::make_unique<AttitudeCheck>(subject));
   checks.push_back(std::make_unique<DelayCheck>());

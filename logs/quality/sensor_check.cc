@@ -111,6 +111,13 @@ double SensorCheck::TravelOfOthers(Signal signal, std::size_t i) const {
   return (sum - courses_[kJointQ][i].path) / (kNumJoints - 1);
 }
 
+bool SensorCheck::IsAtStop(Signal signal, std::size_t i, double value) const {
+  if (subject_.robot == nullptr || signal != kJointQ) return false;
+  const core::JointDescription& joint =
+      subject_.robot->legs[kLegs[i / kJointsPerLeg]].joints[i % kJointsPerLeg];
+  return value < joint.lower_rad + kAtStop_rad || value > joint.upper_rad - kAtStop_rad;
+}
+
 bool SensorCheck::IsStuck(Signal signal, std::size_t i, double time_s) const {
   const Course& c = courses_[signal][i];
   const bool is_foot = signal == kFeet;
@@ -119,7 +126,7 @@ bool SensorCheck::IsStuck(Signal signal, std::size_t i, double time_s) const {
   const double least =
       std::max(kOwnTravel * (c.high - c.low), signal == kJointQ ? kOwnTravel_rad : 0.0);
   if (c.runs > 1 && !is_foot && usual < least) return false;
-  return CanStick(kMeasuredSignals[signal]) &&
+  return CanStick(kMeasuredSignals[signal]) && !IsAtStop(signal, i, c.last.value_or(0.0)) &&
          time_s - c.since_s >= (is_foot ? kFootStuck_s : kStuck_s) &&
          TravelOfOthers(signal, i) - c.travel_then_rad >= (is_foot ? kFootTravel_rad : kTravel_rad);
 }

@@ -20,10 +20,12 @@ class SensorCheck : public QualityCheck {
   /// and a joint by kOwnTravel_rad: one that hardly moves stays within its encoder's resolution.
   static constexpr double kStuck_s = 0.5, kTravel_rad = 0.15, kOwnTravel = 0.5,
                           kOwnTravel_rad = 0.1;
-  static constexpr double kPause_s = 0.1;  // of the log: what stays over it may have changed
+  static constexpr double kPause_s = 0.1;      // of the log: what stays over it may have changed
+  static constexpr double kAtStop_rad = 0.01;  // of its limit: a joint may rest on its stop
   /// Foot sensors show their zero in the air, so that a whole stride has to pass.
   static constexpr double kFootStuck_s = 1.5, kFootTravel_rad = 1.0;
 
+  explicit SensorCheck(const LogSubject& subject) : subject_(subject) {}
   void AddRow(const Row& row) override;
   [[nodiscard]] std::vector<Finding> Conclude(const std::vector<Finding>& earlier) const override;
 
@@ -54,6 +56,7 @@ class SensorCheck : public QualityCheck {
   void AddValues(Signal signal, std::span<const double> values, double time_s);
   void AddRepeats(Signal signal, std::span<const double> values, double time_s);
   void AddValue(Signal signal, std::size_t i, double value, double time_s);
+  [[nodiscard]] bool IsAtStop(Signal signal, std::size_t i, double value) const;
   [[nodiscard]] bool IsStuck(Signal signal, std::size_t i, double time_s) const;
   void EndRun(Signal signal, std::size_t i, double time_s);
   [[nodiscard]] double TravelOfOthers(Signal signal, std::size_t i) const;
@@ -65,6 +68,7 @@ class SensorCheck : public QualityCheck {
   [[nodiscard]] Finding StuckFinding(Signal signal, std::size_t i, const SpanList& spans) const;
 
   static constexpr std::size_t kNumSignals = kMeasuredSignals.size();
+  LogSubject subject_;
   std::array<std::array<Course, 12>, kNumSignals> courses_;
   std::array<Repeats, kNumSignals> repeats_;
   std::array<std::map<double, Sentinel>, kNumSignals> sentinels_;  // a few each

@@ -94,6 +94,30 @@ TEST(FieldRows, WrongAttitudeOfAMomentIsNoFall) {
   EXPECT_TRUE(Complete(MakeSetup(robot), rows).falls.empty());
 }
 
+/// Tips to 72 degrees and back within 83 ms, over 60 degrees for 14 ms.
+std::vector<FallEvent> FallsOfATip(bool has_gyroscope) {
+  const core::RobotDescription robot = test::Go2();
+  constexpr double kFine_s = 0.002, kTip_s = 1.0, kTip_rad = 1.25, kTurn_radps = 30.0;
+  std::vector<logs::Row> rows;
+  for (int k = 0; k < 1000; ++k) {
+    const double time_s = kFine_s * k, since_s = time_s - kTip_s;
+    const bool tips = std::abs(since_s) < kTip_rad / kTurn_radps;
+    const double roll_rad = tips ? kTip_rad - kTurn_radps * std::abs(since_s) : 0.0;
+    logs::Row row = StandingRow(time_s, 0.3 * time_s, roll_rad);
+    if (has_gyroscope) {
+      const double rate_radps = !tips ? 0.0 : since_s <= 0.0 ? kTurn_radps : -kTurn_radps;
+      row.measured->w_WS_S_radps = {rate_radps, 0.0, 0.0};
+    }
+    rows.push_back(row);
+  }
+  return Complete(MakeSetup(robot), rows).falls;
+}
+
+TEST(FieldRows, TiltThatTheGyroscopeConfirmsNeedsNotLast) {
+  EXPECT_TRUE(FallsOfATip(false).empty());
+  EXPECT_EQ(FallsOfATip(true).size(), 1U);
+}
+
 TEST(FieldRows, EstimateThatIsLostWhileTheRobotLiesIsOneFall) {
   const core::RobotDescription robot = test::Go2();
   std::vector<logs::Row> rows = Tumble();
@@ -139,6 +163,27 @@ TEST(FieldRows, JumpOfTheEstimateIsAPlacementAndNoFall) {
   const Completed c = Complete(MakeSetup(robot), rows);
   EXPECT_TRUE(c.falls.empty());
   EXPECT_EQ(c.rows[199].episode->segment + 1, c.rows[200].episode->segment);
+}
+
+TEST(FieldRows, LegsHandOnEveryRowOnceInOrderFromWhereTheEstimateBegins) {
+  const core::RobotDescription robot = test::Go2();
+  FieldSetup setup = MakeSetup(robot);
+  setup.odometry = Odometry::kLegs;
+  std::vector<logs::Row> rows;
+  for (int k = 0; k < 6000; ++k) {  // a minute, put down elsewhere after half of it
+    logs::Row row = StandingRow(kStep_s * k, k < 3000 ? 0.0 : 1.5);
+    row.estimate->v_WB_mps = {};
+    row.measured->w_WS_S_radps.emplace();
+    row.measured->a_WS_S_mps2 = {0.0, 0.0, setup.gravity_mps2};
+    rows.push_back(row);
+  }
+  const Completed c = Complete(setup, rows);
+  ASSERT_EQ(c.rows.size(), rows.size());
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    ASSERT_EQ(c.rows[k].time_s, rows[k].time_s);
+    ASSERT_TRUE(c.rows[k].truth);
+    EXPECT_NEAR(c.rows[k].truth->p_WB_m[0], k < 3000 ? 0.0 : 1.5, 1e-6) << "it stands";
+  }
 }
 
 TEST(FieldRows, LabelsCorrectFalls) {

@@ -103,6 +103,33 @@ TEST(LogJudge, WordsOfTheirOwnAreNoMeasurements) {
   EXPECT_EQ(sentinels, 2);
 }
 
+/// A Go2's legs on the move, one knee held for a second.
+std::vector<Row> HeldKnee(const core::RobotDescription& robot, double held_rad) {
+  std::vector<Row> rows = Circle();
+  for (Row& row : rows) {
+    logs::Array12& q_rad = row.measured.emplace().q_rad.emplace();
+    for (std::size_t j = 0; j < q_rad.size(); ++j) {
+      const core::JointDescription& joint = robot.legs[kLegs[j / 3]].joints[j % 3];
+      const double middle_rad = 0.5 * (joint.lower_rad + joint.upper_rad);
+      q_rad[j] = middle_rad + 0.4 * std::sin(6.0 * row.time_s + static_cast<double>(j));
+    }
+    if (row.time_s > 2.0 && row.time_s < 3.0) q_rad[5] = held_rad;
+  }
+  return rows;
+}
+
+TEST(LogJudge, JointOnItsStopIsNotStuck) {
+  const core::RobotDescription robot = test::Go2();
+  const core::JointDescription& knee = robot.legs[Leg::kFR].joints[2];
+  const auto stuck =
+      Find(test::Judge(HeldKnee(robot, knee.upper_rad - 0.05), &robot), FindingKind::kStuckSensor);
+  ASSERT_TRUE(stuck);
+  EXPECT_EQ(stuck->leg, Leg::kFR);
+  for (const double stop_rad : {knee.upper_rad - 0.001, knee.lower_rad + 0.001}) {
+    EXPECT_FALSE(Find(test::Judge(HeldKnee(robot, stop_rad), &robot), FindingKind::kStuckSensor));
+  }
+}
+
 TEST(LogJudge, RateOfAJointHasTheSignOfItsDerivative) {
   std::vector<Row> rows = Circle();
   for (Row& row : rows) {
