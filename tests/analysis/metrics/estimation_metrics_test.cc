@@ -294,7 +294,7 @@ logs::Row SpoiltRow(long i) {
 }
 
 TEST(Estimation, MemoryDoesNotGrowWithTheEpisode) {
-  if (!test::AllocationGuard::IsArmed()) GTEST_SKIP();
+  if (!test::AllocationGuard::IsArmed()) GTEST_SKIP() << "the sanitizer owns the allocator";
   EstimationAccumulator e;
   for (long i = 0; i < 1000; ++i) e.AddRow(SpoiltRow(i));  // its window of rows finds its size
   const test::AllocationGuard guard;
