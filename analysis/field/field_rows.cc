@@ -7,7 +7,6 @@
 
 #include "analysis/field/leg_odometry.h"
 #include "core/math/so3.h"
-#include "core/robot/stance_velocity.h"
 #include "logs/vectors.h"
 
 namespace scoria::analysis {
@@ -77,7 +76,8 @@ void FieldRows::Complete(logs::Row row, const logs::Row* after) {
     clues_.Reset();
     before_.reset();
   }
-  const double dt_s = placed || !last_.time_s ? 0.0 : row.time_s - *last_.time_s;
+  const bool begins = placed || !last_.time_s;
+  const double dt_s = begins ? 0.0 : row.time_s - *last_.time_s;
   const std::optional<logs::Array12> qd_radps = SpeedsAt(row, after);
   const bool operating = !setup_.has_plan || row.plan.has_value();
   if (!row.episode) {
@@ -98,7 +98,7 @@ void FieldRows::Complete(logs::Row row, const logs::Row* after) {
   FillEnergy(row, qd_radps, dt_s);
   if (!row.episode) row.episode = {rows_, operating, fallen_ || stopped_, segment_};
   ++rows_;
-  Held held{std::move(row), had, qd_radps, dt_s};
+  Held held{std::move(row), had, qd_radps, dt_s, begins};
   if (setup_.odometry != Odometry::kLegs || setup_.robot == nullptr) {
     HandOn(std::move(held), std::nullopt);
     return;
@@ -118,7 +118,7 @@ void FieldRows::HandOnSmoothed() {
 
 /// @param v_WS  of the IMU, where the legs tell the motion.
 void FieldRows::HandOn(Held held, const std::optional<Vec3>& v_WS) {
-  FillMotion(held.row, v_WS, held.dt_s);
+  FillMotion(held, v_WS);
   FillTrueContacts(held.row, held.qd_radps);
   FillMass(held.row);
   on_row_(held.row, logs::GroupsOf(held.row) & ~held.had);
@@ -187,7 +187,8 @@ std::optional<logs::Array12> FieldRows::SpeedsAt(const logs::Row& row,
                              after->time_s - before_->first);
 }
 
-void FieldRows::FillMotion(logs::Row& row, const std::optional<Vec3>& v_WS, double dt_s) {
+void FieldRows::FillMotion(Held& held, const std::optional<Vec3>& v_WS) {
+  logs::Row& row = held.row;
   if (row.truth) return;
   std::optional<logs::TruthRow> truth;
   if (setup_.odometry == Odometry::kEstimate && row.estimate) {
@@ -195,29 +196,29 @@ void FieldRows::FillMotion(logs::Row& row, const std::optional<Vec3>& v_WS, doub
     truth->v_WB_mps = row.estimate->v_WB_mps;
     truth->rpy_rad = row.estimate->rpy_rad;
   } else if (v_WS) {
-    truth = MotionByLegs(row, *v_WS, dt_s);
+    truth = MotionByLegs(held, *v_WS);
   }
   if (!truth) return;
   const Mat3 R_WB = core::RotationFromRpy(logs::ToVec3(truth->rpy_rad));
   if (const std::optional<Vec3> w_WB_B = RateOf(row, setup_.robot)) {
     truth->w_WB_radps = logs::ToArray(R_WB * *w_WB_B);
-  } else if (last_R_WB_ && dt_s > 0.0) {
-    truth->w_WB_radps = logs::ToArray(core::LogSo3(R_WB * last_R_WB_->transpose()) / dt_s);
+  } else if (last_R_WB_ && held.dt_s > 0.0) {
+    truth->w_WB_radps = logs::ToArray(core::LogSo3(R_WB * last_R_WB_->transpose()) / held.dt_s);
   }
   last_R_WB_ = R_WB;
   row.truth = truth;
 }
 
 /// Where it was set down is where its own estimate begins, if it has one.
-std::optional<logs::TruthRow> FieldRows::MotionByLegs(const logs::Row& row, const Vec3& v_WS,
-                                                      double dt_s) {
+std::optional<logs::TruthRow> FieldRows::MotionByLegs(const Held& held, const Vec3& v_WS) {
+  const logs::Row& row = held.row;
   const std::optional<Mat3> R_WB = AttitudeOf(row, setup_.robot);
   if (!R_WB) return std::nullopt;
   Vec3 v_WB = v_WS;
   if (const std::optional<Vec3> w_WB_B = RateOf(row, setup_.robot))
     v_WB -= *R_WB * w_WB_B->cross(setup_.robot->p_BS);
-  p_legs_W_ += dt_s * v_WB;
-  if (dt_s == 0.0 && row.estimate) p_legs_W_ = logs::ToVec3(row.estimate->p_WB_m);
+  p_legs_W_ += held.dt_s * v_WB;
+  if (held.begins && row.estimate) p_legs_W_ = logs::ToVec3(row.estimate->p_WB_m);
   logs::TruthRow truth;
   truth.p_WB_m = logs::ToArray(p_legs_W_);
   truth.v_WB_mps = logs::ToArray(v_WB);
@@ -237,34 +238,14 @@ void FieldRows::FillTrueContacts(logs::Row& row,
   if (row.true_contacts || !row.contacts) return;
   logs::TrueContactsRow& contacts = row.true_contacts.emplace();
   contacts.contact = row.contacts->contact;
-  const FeetMotion feet = CalcFeetMotion(row, qd_radps);
+  FeetMotion feet;
+  if (setup_.robot != nullptr) feet = CalcFeetMotion(*setup_.robot, row, qd_radps);
   contacts.p_WF_m = feet.p_WF_m;
   if (!row.contacts->f_F_W_N || !setup_.mass_kg) return;
   for (const Leg leg : kLegs) {
     const auto k = static_cast<std::size_t>(leg);
     contacts.contact[k] = (*row.contacts->f_F_W_N)[3 * k + 2] > LeastForce(feet.speed_mps[leg]);
   }
-}
-
-FieldRows::FeetMotion FieldRows::CalcFeetMotion(
-    const logs::Row& row, const std::optional<logs::Array12>& qd_radps) const {
-  FeetMotion feet;
-  if (setup_.robot == nullptr || !row.truth || !row.measured || !row.measured->q_rad) return feet;
-  const core::RobotDescription& robot = *setup_.robot;
-  const Mat3 R_WB = core::RotationFromRpy(logs::ToVec3(row.truth->rpy_rad));
-  const LegArray<Vec3> q = Unflatten(*row.measured->q_rad);
-  LegArray<Vec3> p_WF = ZeroPerLeg();
-  for (const Leg leg : kLegs) {
-    p_WF[leg] = logs::ToVec3(row.truth->p_WB_m) +
-                R_WB * core::CalcLegKinematics(robot.legs[leg], q[leg]).p_BF;
-    if (!qd_radps) continue;
-    const Vec3 v_rolling =
-        core::CalcFootStanceVelocity(robot.legs[leg], R_WB, logs::ToVec3(row.truth->w_WB_radps),
-                                     q[leg], Unflatten(*qd_radps)[leg], core::StanceFoot::kRolls);
-    feet.speed_mps[leg] = (logs::ToVec3(row.truth->v_WB_mps) - v_rolling).norm();
-  }
-  feet.p_WF_m = Flatten(p_WF);
-  return feet;
 }
 
 /// Vertical force above which a foot stands, N: of one at rest, or rolling, what the simulator says

@@ -94,12 +94,8 @@ class FieldRows {
     logs::Row row;
     logs::RowGroups had;
     std::optional<logs::Array12> qd_radps;
-    double dt_s = 0.0;  // since the row before; 0 if the robot was placed
-  };
-  /// Places of the feet, and how fast they move against feet that roll.
-  struct FeetMotion {
-    std::optional<logs::Array12> p_WF_m;
-    LegArray<std::optional<double>> speed_mps;
+    double dt_s = 0.0;    // since the row before; 0 if the robot was placed
+    bool begins = false;  // it was placed
   };
   void Complete(logs::Row row, const logs::Row* after);
   [[nodiscard]] bool IsNewPlace(const logs::Row& row) const;
@@ -111,13 +107,10 @@ class FieldRows {
                                                       const logs::Row* after) const;
   void HandOnSmoothed();
   void HandOn(Held held, const std::optional<Vec3>& v_WS);
-  void FillMotion(logs::Row& row, const std::optional<Vec3>& v_WS, double dt_s);
-  [[nodiscard]] std::optional<logs::TruthRow> MotionByLegs(const logs::Row& row, const Vec3& v_WS,
-                                                           double dt_s);
+  void FillMotion(Held& held, const std::optional<Vec3>& v_WS);
+  [[nodiscard]] std::optional<logs::TruthRow> MotionByLegs(const Held& held, const Vec3& v_WS);
   void FillContacts(logs::Row& row);
   void FillTrueContacts(logs::Row& row, const std::optional<logs::Array12>& qd_radps) const;
-  [[nodiscard]] FeetMotion CalcFeetMotion(const logs::Row& row,
-                                          const std::optional<logs::Array12>& qd_radps) const;
   [[nodiscard]] double LeastForce(const std::optional<double>& speed_mps) const;
   [[nodiscard]] bool IsUpright(const logs::Row& row) const;
   void FillMass(logs::Row& row);

@@ -3,6 +3,7 @@
 
 #include "core/math/so3.h"
 #include "core/robot/stance_velocity.h"
+#include "core/robot/whole_body.h"
 #include "logs/vectors.h"
 
 namespace scoria::analysis {
@@ -45,6 +46,26 @@ VelocityClue CalcVelocityClue(const core::RobotDescription& robot, const logs::R
     clue.v_WS[leg] = v_WB + w_WB_W.cross(*R_WB * robot.p_BS);
   }
   return clue;
+}
+
+FeetMotion CalcFeetMotion(const core::RobotDescription& robot, const logs::Row& row,
+                          const std::optional<logs::Array12>& qd_radps) {
+  FeetMotion feet;
+  if (!row.truth || !row.measured || !row.measured->q_rad) return feet;
+  const Mat3 R_WB = core::RotationFromRpy(logs::ToVec3(row.truth->rpy_rad));
+  const Vec3 p_WB = logs::ToVec3(row.truth->p_WB_m), v_WB = logs::ToVec3(row.truth->v_WB_mps);
+  const Vec3 w_WB_W = logs::ToVec3(row.truth->w_WB_radps);
+  const LegArray<Vec3> q = Unflatten(*row.measured->q_rad);
+  LegArray<Vec3> p_WF = ZeroPerLeg();
+  for (const Leg leg : kLegs) {
+    p_WF[leg] = p_WB + R_WB * core::CalcLegKinematics(robot.legs[leg], q[leg]).p_BF;
+    if (!qd_radps) continue;
+    const Vec3 v_rolling = core::CalcFootStanceVelocity(
+        robot.legs[leg], R_WB, w_WB_W, q[leg], Unflatten(*qd_radps)[leg], core::StanceFoot::kRolls);
+    feet.speed_mps[leg] = (v_WB - v_rolling).norm();
+  }
+  feet.p_WF_m = Flatten(p_WF);
+  return feet;
 }
 
 }  // namespace scoria::analysis

@@ -26,4 +26,14 @@ namespace scoria::analysis {
                                             const std::optional<logs::Array12>& qd_radps,
                                             double gravity_mps2);
 
+/// Places of the feet, and how fast they move against feet that roll.
+struct FeetMotion {
+  std::optional<logs::Array12> p_WF_m;
+  LegArray<std::optional<double>> speed_mps;
+};
+
+/// By the trunk's motion (row.truth) and the joints; empty without them.
+[[nodiscard]] FeetMotion CalcFeetMotion(const core::RobotDescription& robot, const logs::Row& row,
+                                        const std::optional<logs::Array12>& qd_radps);
+
 }  // namespace scoria::analysis

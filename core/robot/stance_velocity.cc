@@ -20,10 +20,12 @@ Vec3 ShankRate(const Vec3& q, const Vec3& qd) {
 Vec3 CalcFootStanceVelocity(const LegDescription& leg, const Mat3& R_WB, const Vec3& w_WB_W,
                             const Vec3& q, const Vec3& qd, StanceFoot foot) noexcept {
   const LegKinematics at = CalcLegKinematics(leg, q);
-  const Vec3 v_WB = -(w_WB_W.cross(R_WB * at.p_BF) + R_WB * (at.J * qd));
-  if (foot == StanceFoot::kStays) return v_WB;
-  const Vec3 w_shank_W = w_WB_W + R_WB * ShankRate(q, qd);
-  return v_WB + w_shank_W.cross(leg.foot_radius_m * Vec3::UnitZ());
+  Vec3 v_WB = -(w_WB_W.cross(R_WB * at.p_BF) + R_WB * (at.J * qd));
+  if (foot == StanceFoot::kRolls) {
+    const Vec3 w_shank_W = w_WB_W + R_WB * ShankRate(q, qd);
+    v_WB += w_shank_W.cross(leg.foot_radius_m * Vec3::UnitZ());
+  }
+  return v_WB;
 }
 
 std::optional<Vec3> CalcStanceVelocity(const RobotDescription& robot, const Mat3& R_WB,
