@@ -6,6 +6,7 @@
 #include <string>
 
 #include "analysis/field/leg_odometry.h"
+#include "analysis/signals/steady.h"
 #include "core/math/so3.h"
 #include "logs/vectors.h"
 
@@ -23,7 +24,8 @@ FieldRows::FieldRows(FieldSetup setup, OnRow on_row)
       on_row_(std::move(on_row)),
       clues_(setup_.mass_kg ? setup_.robot : nullptr, setup_.mass_kg.value_or(0.0),
              setup_.gravity_mps2),
-      detector_(setup_.falls, NominalHeight(setup_.robot)) {
+      detector_(setup_.falls, NominalHeight(setup_.robot)),
+      posture_(NominalHeight(setup_.robot), setup_.gravity_mps2) {
   if (setup_.robot != nullptr) model_.emplace(*setup_.robot, setup_.gravity_mps2);
 }
 
@@ -79,9 +81,9 @@ void FieldRows::Complete(logs::Row row, const logs::Row* after) {
   const bool begins = placed || !last_.time_s;
   const double dt_s = begins ? 0.0 : row.time_s - *last_.time_s;
   const std::optional<logs::Array12> qd_radps = SpeedsAt(row, after);
-  const bool operating = !setup_.has_plan || row.plan.has_value();
+  bool operating = false;
   if (!row.episode) {
-    FindFall(row, dt_s, operating);
+    operating = FindFall(row, dt_s);
   } else {
     if (row.episode->fallen && !fallen_) Count(row, "the log's own account");
     fallen_ = row.episode->fallen;
@@ -154,9 +156,12 @@ void FieldRows::ApplyLabels(const logs::Row& row) {
   }
 }
 
-void FieldRows::FindFall(const logs::Row& row, double dt_s, bool operating) {
+/// @returns whether it walks, or stands to walk.
+bool FieldRows::FindFall(const logs::Row& row, double dt_s) {
   ApplyLabels(row);
   const FallSample sample = clues_.Update(row, dt_s);
+  posture_.Update(sample);
+  const bool operating = setup_.has_plan ? row.plan.has_value() : posture_.stands();
   const FallState before = detector_.state();
   constexpr double kNotOverdue_s = -1.0;  // a log does not say when standing up should have ended
   const FallCause cause =
@@ -165,7 +170,24 @@ void FieldRows::FindFall(const logs::Row& row, double dt_s, bool operating) {
     ++segment_;  // set on its feet by hand
     fallen_ = stopped_ = false;
   }
-  if (cause == FallCause::kNone) return;
+  if (cause == FallCause::kNone) return operating;
+  if (!setup_.has_plan && LiesDown(row, cause)) {
+    posture_.Lie();
+    detector_.Reset();
+    return false;
+  }
+  CountOnce(row, cause);
+  return operating;
+}
+
+/// A robot that is told to walk does not lie down.
+bool FieldRows::LiesDown(const logs::Row& row, FallCause cause) const {
+  constexpr double kStill_mps = 0.05;
+  const bool is_still = !row.command || SpeedOf(*row.command) < kStill_mps;
+  return cause != FallCause::kTilt && is_still && posture_.CameDownSlowly();
+}
+
+void FieldRows::CountOnce(const logs::Row& row, FallCause cause) {
   const double since_s = falls_.empty() ? kLabel_s + 1.0 : row.time_s - falls_.back().time_s;
   const bool counted =
       since_s <= kOneFall_s || (since_s <= kLabel_s && falls_.back().cause == "label");

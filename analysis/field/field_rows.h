@@ -11,6 +11,7 @@
 
 #include "analysis/field/fall_clues.h"
 #include "analysis/field/joint_speed.h"
+#include "analysis/field/posture.h"
 #include "analysis/field/velocity_smoother.h"
 #include "analysis/signals/falls.h"
 #include "core/robot/description.h"
@@ -99,7 +100,9 @@ class FieldRows {
   };
   void Complete(logs::Row row, const logs::Row* after);
   [[nodiscard]] bool IsNewPlace(const logs::Row& row) const;
-  void FindFall(const logs::Row& row, double dt_s, bool operating);
+  [[nodiscard]] bool FindFall(const logs::Row& row, double dt_s);
+  [[nodiscard]] bool LiesDown(const logs::Row& row, FallCause cause) const;
+  void CountOnce(const logs::Row& row, FallCause cause);
   void ApplyLabels(const logs::Row& row);
   [[nodiscard]] std::optional<FallVerdict> LabelNear(double time_s) const;
   void Count(const logs::Row& row, std::string cause);
@@ -123,6 +126,7 @@ class FieldRows {
   core::WholeBody body_;
   FallClues clues_;
   FallDetector detector_;
+  Posture posture_;
   logs::StanceByTorque stance_;
   std::optional<logs::Row> waiting_;
   Placed last_;                                             // of the row before the one that waits

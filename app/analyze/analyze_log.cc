@@ -76,10 +76,14 @@ analysis::Substitutes Describe(const analysis::FieldSetup& setup, const RowsSurv
   const std::string contacts =
       by_force && !by_torque ? "contacts by the forces of the feet as the log has them" : fused;
   analysis::Substitutes all;
+  const char* walking = setup.has_plan
+                            ? "the log has the controller's plan and the robot has not fallen"
+                        : setup.robot != nullptr ? "the robot stands and has not fallen"
+                                                 : "the robot has not fallen";
   all[RowGroup::kEpisode] = fmt::format(
-      "walking is {}the robot has not fallen; falls by tilt, height over the feet, and "
-      "load that the feet do not carry",
-      setup.has_plan ? "when the log has the controller's plan and " : "when ");
+      "walking is when {}; falls by tilt, height over the feet, and load that the feet do not "
+      "carry",
+      walking);
   all[RowGroup::kTruth] =
       setup.odometry == Odometry::kEstimate
           ? "motion of the trunk by the robot's own estimate"

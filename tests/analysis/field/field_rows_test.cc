@@ -155,6 +155,39 @@ TEST(FieldRows, LoadThatTheFeetDoNotCarryIsAFallOfALowTrunk) {
   EXPECT_TRUE(FallsOfUnloadedFeet(kStanding_rad).empty()) << "knees may be on the ground";
 }
 
+/// Lies, stands up at 1 s, and is down again at 4 s, in `down_s`.
+Completed StandUpAndGoDown(double down_s, double commanded_mps) {
+  const core::RobotDescription robot = test::Go2();
+  constexpr double kLying_rad = -2.72, kStanding_rad = -1.6;
+  std::vector<logs::Row> rows;
+  for (int k = 0; k < 800; ++k) {
+    const double time_s = kStep_s * k;
+    const double up = std::clamp(time_s - 1.0, 0.0, 1.0),
+                 down = std::clamp((4.0 - time_s) / down_s, 0.0, 1.0);
+    const double knee_rad = kLying_rad + std::min(up, down) * (kStanding_rad - kLying_rad);
+    logs::Row row = StandingRow(time_s, 0.0);
+    for (std::size_t j = 0; j < 12; j += 3) {
+      (*row.measured->q_rad)[j + 1] = -0.5 * knee_rad;
+      (*row.measured->q_rad)[j + 2] = knee_rad;
+    }
+    row.command.emplace().v_x_mps = commanded_mps;
+    rows.push_back(row);
+  }
+  return Complete(MakeSetup(robot), rows);
+}
+
+TEST(FieldRows, StandingUpAndLyingDownAreNoFalls) {
+  constexpr double kLiesDown_s = 1.0, kGivesWay_s = 0.2;
+  const Completed c = StandUpAndGoDown(kLiesDown_s, 0.0);
+  EXPECT_TRUE(c.falls.empty());
+  const auto walks = [&](int k) { return c.rows[static_cast<std::size_t>(k)].episode->operating; };
+  EXPECT_FALSE(walks(50));
+  EXPECT_TRUE(walks(250));
+  EXPECT_FALSE(walks(500));
+  EXPECT_EQ(StandUpAndGoDown(kGivesWay_s, 0.0).falls.size(), 1U) << "its legs gave way";
+  EXPECT_EQ(StandUpAndGoDown(kLiesDown_s, 0.3).falls.size(), 1U) << "it was told to walk";
+}
+
 TEST(FieldRows, JumpOfTheEstimateIsAPlacementAndNoFall) {
   const core::RobotDescription robot = test::Go2();
   std::vector<logs::Row> rows;

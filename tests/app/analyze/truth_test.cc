@@ -26,6 +26,8 @@ TEST(AnalyzedTruth, OfMarkersIsAlignedInTimeAndByItsLeverArm) {
   ASSERT_TRUE(analysis.trajectory_error);
   EXPECT_EQ(analysis.trajectory_error->Refusal(),
             "the log has no instant with both truth and estimate");
+  EXPECT_TRUE(analysis.log.metrics.falls.empty()) << "it lies, stands up, walks, and lies down";
+  EXPECT_GT(analysis.log.metrics.walking_s, 20.0);
 }
 
 }  // namespace
