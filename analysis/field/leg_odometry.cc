@@ -33,7 +33,8 @@ VelocityClue CalcVelocityClue(const core::RobotDescription& robot, const logs::R
   if (!R_WB || !row.measured) return clue;
   if (row.measured->a_WS_S_mps2) {
     const Vec3 a_WS_S = logs::ToVec3(*row.measured->a_WS_S_mps2);
-    clue.a_WS = *R_WB * (robot.R_BS * a_WS_S) - gravity_mps2 * Vec3::UnitZ();
+    const Vec3 a_WS = *R_WB * (robot.R_BS * a_WS_S) - gravity_mps2 * Vec3::UnitZ();
+    if (a_WS.allFinite()) clue.a_WS = a_WS;
   }
   const std::optional<Vec3> w_WB_B = RateOf(row, &robot);
   if (!w_WB_B || !row.contacts || !row.measured->q_rad || !qd_radps) return clue;
@@ -43,7 +44,8 @@ VelocityClue CalcVelocityClue(const core::RobotDescription& robot, const logs::R
     if (!row.contacts->contact[static_cast<std::size_t>(leg)]) continue;
     const Vec3 v_WB = core::CalcFootStanceVelocity(robot.legs[leg], *R_WB, w_WB_W, q[leg], qd[leg],
                                                    core::StanceFoot::kRolls);
-    clue.v_WS[leg] = v_WB + w_WB_W.cross(*R_WB * robot.p_BS);
+    const Vec3 v_WS = v_WB + w_WB_W.cross(*R_WB * robot.p_BS);
+    if (v_WS.allFinite()) clue.v_WS[leg] = v_WS;
   }
   return clue;
 }

@@ -19,7 +19,7 @@ namespace scoria::analysis {
 
 /// What its legs and its IMU tell of the velocity of the IMU: feet in contact roll as spheres on
 /// level ground and do not slip. No feet without joints, contacts, attitude and rate; no
-/// acceleration without attitude.
+/// acceleration without attitude; nothing of readings that are no numbers.
 /// @param qd_radps  speeds of the joints.
 [[nodiscard]] VelocityClue CalcVelocityClue(const core::RobotDescription& robot,
                                             const logs::Row& row,

@@ -2,6 +2,7 @@
 #include "analysis/field/field_rows.h"
 
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -208,6 +209,9 @@ TEST(FieldRows, LegsHandOnEveryRowOnceInOrderFromWhereTheEstimateBegins) {
     row.estimate->v_WB_mps = {};
     row.measured->w_WS_S_radps.emplace();
     row.measured->a_WS_S_mps2 = {0.0, 0.0, setup.gravity_mps2};
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    if (k == 1000) (*row.measured->q_rad)[4] = kNone;  // readings that are none
+    if (k == 1010) (*row.measured->a_WS_S_mps2)[0] = kNone;
     rows.push_back(row);
   }
   const Completed c = Complete(setup, rows);
