@@ -151,9 +151,9 @@ void LogObserver::GoOnAfterGap(double gap_s) {
 void LogObserver::ContinueUnsure(controller::StateEstimate from) {
   RobotState& s = from.state;
   const SensorFrame& z = sensing_->last_samples();
-  s.v_WB = core::CalcStanceVelocity(inputs_.robot, s.R_WB, s.w_WB, z.q, z.qd,
-                                    sensed().contact.contact, core::StanceFoot::kStays)
-               .value_or(Vec3::Zero());
+  s.v_WB =
+      core::CalcStanceVelocity(inputs_.robot, s.R_WB, s.w_WB, z.q, z.qd, sensed().contact.contact)
+          .value_or(Vec3::Zero());
   from.P_tilt_v.setZero();
   sensing_->ContinueEstimate(from, 1.0);
 }

@@ -20,9 +20,8 @@ StateEstimate LegOdometry::Update(const EstimatorInput& in, Counters&) noexcept 
     const Vec3 w_WB_B = robot_.R_BS * (in.z.w_WS_S - gyro_bias_S_);
     state_.R_WB = state_.R_WB * core::ExpSo3(w_WB_B * in.imu_dt_s);
     state_.w_WB = state_.R_WB * w_WB_B;
-    if (const std::optional<Vec3> v_W =
-            core::CalcStanceVelocity(robot_, state_.R_WB, state_.w_WB, in.z.q, in.z.qd,
-                                     in.contact.contact, core::StanceFoot::kStays))
+    if (const std::optional<Vec3> v_W = core::CalcStanceVelocity(
+            robot_, state_.R_WB, state_.w_WB, in.z.q, in.z.qd, in.contact.contact))
       state_.v_WB = *v_W;
     state_.p_WB += in.imu_dt_s * state_.v_WB;
   }

@@ -30,13 +30,14 @@ Vec3 CalcFootStanceVelocity(const LegDescription& leg, const Mat3& R_WB, const V
 
 std::optional<Vec3> CalcStanceVelocity(const RobotDescription& robot, const Mat3& R_WB,
                                        const Vec3& w_WB_W, const LegArray<Vec3>& q,
-                                       const LegArray<Vec3>& qd, const LegArray<bool>& contact,
-                                       StanceFoot foot) noexcept {
+                                       const LegArray<Vec3>& qd,
+                                       const LegArray<bool>& contact) noexcept {
   Vec3 sum_W = Vec3::Zero();
   int standing = 0;
   for (const Leg leg : kLegs) {
     if (!contact[leg]) continue;
-    sum_W += CalcFootStanceVelocity(robot.legs[leg], R_WB, w_WB_W, q[leg], qd[leg], foot);
+    sum_W +=
+        CalcFootStanceVelocity(robot.legs[leg], R_WB, w_WB_W, q[leg], qd[leg], StanceFoot::kStays);
     ++standing;
   }
   if (standing == 0) return std::nullopt;

@@ -21,11 +21,13 @@ enum class StanceFoot {
                                           const Vec3& w_WB_W, const Vec3& q, const Vec3& qd,
                                           StanceFoot foot) noexcept;
 
-/// The mean of what the standing feet tell.
+/// The mean of what the standing feet tell whose centres stay.
 /// @param w_WB_W  rad/s, in W.    @param contact  feet that stand.
 /// @returns m/s, in W; none if no foot stands.
-[[nodiscard]] std::optional<Vec3> CalcStanceVelocity(
-    const RobotDescription& robot, const Mat3& R_WB, const Vec3& w_WB_W, const LegArray<Vec3>& q,
-    const LegArray<Vec3>& qd, const LegArray<bool>& contact, StanceFoot foot) noexcept;
+[[nodiscard]] std::optional<Vec3> CalcStanceVelocity(const RobotDescription& robot,
+                                                     const Mat3& R_WB, const Vec3& w_WB_W,
+                                                     const LegArray<Vec3>& q,
+                                                     const LegArray<Vec3>& qd,
+                                                     const LegArray<bool>& contact) noexcept;
 
 }  // namespace scoria::core
